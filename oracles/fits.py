@@ -1,4 +1,4 @@
-"""Circle fits of nasty point sets by exact methods -> crates/trueaxis-part/tests/data/circles.json
+"""Circle fits of nasty point sets by exact methods -> crates/trueaxis-form/tests/data/circles.json
 
 usage: python3 oracles/fits.py [--alglib BINARY]
 LSC: Newton (full Hessian, 40 digits) from several starts; MCC, MIC: brute force over all pairs/triples, contact circle
@@ -18,7 +18,7 @@ import circlefit as cf
 from model import versions
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-OUT = os.path.join(ROOT, "crates", "trueaxis-part", "tests", "data")
+OUT = os.path.join(ROOT, "crates", "trueaxis-form", "tests", "data")
 ALG = sys.argv[sys.argv.index("--alglib") + 1] if "--alglib" in sys.argv else None
 
 

@@ -8,8 +8,9 @@ form of CV3 with the hat matrix (not from refits), and statsmodels' sandwich (CR
 
 Run in the repository root: python3 oracles/thermal.py [DATA] (30 s); DATA (default ../shared/data) holds
 the open lathe runs, of which only the figures are written.
-Writes examples/05_identify/lathe-thermal/cycle-*.csv (no real machine; seed 20261121) and
-crates/trueaxis/tests/data/thermal.json.
+Writes examples/05_identify/lathe-thermal/cycle-*.csv and lathe-new-day.csv (no real machine; seeds 20261121 and
+20261122), crates/trueaxis/tests/data/thermal.json and crates/trueaxis-thermal/tests/data/later.json: the new
+day scored with the model of the cycles by (271) and (272), with dummy variables and dense matrices.
 """
 
 import glob
@@ -25,6 +26,8 @@ from sklearn.model_selection import LeaveOneGroupOut
 
 SEED = 20261121
 EXAMPLE = "examples/05_identify/lathe-thermal/"
+NEW_DAY = "examples/05_identify/lathe-new-day.csv"
+LATER = "crates/trueaxis-thermal/tests/data/later.json"
 EXPECTED = "crates/trueaxis/tests/data/thermal.json"
 SENSORS = ["spindle_front", "spindle_rear", "headstock", "bed", "coolant", "ambient"]
 TRUE_UM_PER_K = {"spindle_front": 2.1, "bed": -3.4}
@@ -76,9 +79,100 @@ def make_cycles():
     return cycles
 
 
-def write_example(cycles):
-    for i, (t, d, said) in enumerate(cycles):
-        with open(f"{EXAMPLE}cycle-{i + 1}.csv", "w") as out:
+def new_day():
+    """The same machine when coolant goes through the tool holder for the first time: a heater of its own
+    warms the coolant, and 1.4 um/K of it act on the holder, which no usual day shows."""
+    rng = np.random.default_rng(SEED + 1)
+    dt = 10.0
+    t = np.arange(int((ROWS - 1) * STEP_S / dt) + 1) * dt
+    power = np.where(t < 3600, 0.6, np.where(t < 7200, 0.0, 0.3))
+    air = 21.0 + 0.8 * np.sin(np.pi * t / t[-1])
+    front, rear, head, bed, coolant = 21.2, 21.1, 21.0, 20.8, 20.9
+    rows = []
+    for p, a, seconds in zip(power, air, t):
+        rows.append((front, rear, head, bed, coolant, a))
+        (front, rear, head, bed, _, _) = heat([p, p], [a, a], (front, rear, head, bed, coolant), dt)[1]
+        coolant += dt * (0.0016 * p + (0.0040 if seconds >= 2400 else 0.0) - (coolant - a) / 2600)
+    rows = np.array(rows)[:: int(STEP_S / dt)]
+    drift = sum(k * rows[:, SENSORS.index(s)] for s, k in TRUE_UM_PER_K.items())
+    through = 1.4 * (rows[:, SENSORS.index("coolant")] - rows[:, SENSORS.index("ambient")])
+    slow = np.zeros(len(rows))
+    for i in range(1, len(rows)):
+        slow[i] = 0.9 * slow[i - 1] + 0.2 * rng.normal()
+    d = drift - drift[0] + through - through[0] + slow + 0.4 * rng.normal(size=len(rows)) + 11.0
+    said = np.round(rows + 0.03 * rng.normal(size=rows.shape), 2)
+    return np.arange(len(rows)) * STEP_S, np.round(d, 2), said
+
+
+def score(cycles, later, lags, case):
+    """(271) and (272) of a later log, zero "cycle"; case: the model of the cycles."""
+    from scipy import stats
+
+    terms = case["scores"][case["chosen"]]["columns"]
+    extra = [j for j in terms if j >= len(SENSORS)]
+    used = list(range(len(SENSORS))) + extra
+    x, y, group = columns(cycles, lags)
+    xl, yl, _ = columns([later], lags)
+    names, big = np.unique(group), len(cycles)
+
+    def centred(values, of):
+        out = values.astype(float).copy()
+        for g in np.unique(of):
+            out[of == g] -= out[of == g].mean(0)
+        return out
+
+    xc, yc = centred(x, group), centred(y, group)
+    tau2 = []
+    for j in used:
+        second = [np.diff(c[2][:, j % len(SENSORS)], 2) for c in cycles]
+        tau2.append(max(np.mean([np.mean(s**2) / 6 for s in second]), 0.05**2))
+    inverse = lambda rows: np.linalg.inv(xc[rows][:, used].T @ xc[rows][:, used] / rows.sum() + np.diag(tau2))
+    distance = lambda v, b: np.einsum("ij,jk,ik->i", v, b, v)
+    k, _ = slopes(x[:, terms], y, group, "cycle")
+    v = np.array(case["correlation"]) * np.outer(case["u_um_per_k"], case["u_um_per_k"])
+    rests, total, left_out = [], [], []
+    levels = np.array([c[2].mean() for c in cycles])
+    scatter = lambda l: max(l.std(ddof=1), 0.5)
+    for i, g in enumerate(names):
+        own = group == g
+        d = distance(xc[own][:, used], inverse(~own)).mean()
+        left_out.append(d)
+        # The cycle by the others, with the terms that they choose.
+        chosen = list(best_subsets(x[~own], y[~own], group[~own], "cycle", 3)[case["chosen"]])
+        s = held_out(x, y, np.where(~own)[0], np.where(own)[0], group, "cycle", chosen)
+        slope = distance(xc[own][:, terms], big * v).mean()
+        rest = np.delete(levels, i)
+        d = d + ((levels[i] - rest.mean()) / scatter(rest)) ** 2
+        rests.append((s - slope) / (1 + d / (big - 1)))
+        total.append(s / (1 + d / (big - 1)))
+    rest = max(np.mean(rests), 0.25 * np.mean(total))
+    t = stats.t.ppf(0.5 + 0.5 * (2 * stats.norm.cdf(2) - 1), big - 1)
+    b = inverse(np.full(len(group), True))
+    mine = xl - xl.mean(0)
+    d2 = distance(mine[:, used], b)
+    level = ((later[2].mean() - levels.mean()) / scatter(levels)) ** 2
+    u = t * np.sqrt(distance(mine[:, terms], big * v) + rest * (1 + (d2 + level) / big))
+    left = yl - yl.mean() - mine[:, terms] @ k
+    gram = np.linalg.inv(b) - np.diag(tau2)
+    effective = np.trace(gram @ b)
+    logs = np.log(left_out)
+    spread = np.sqrt(logs.var(ddof=1) * (1 + 1 / big))
+    return {
+        "left_um": float(np.sqrt(np.mean(left**2))),
+        "promised_u_um": float(t * case["scores"][case["chosen"]]["held_out_um"]),
+        "u_um": float(np.sqrt(np.mean(u**2))),
+        "mean_distance": float(d2.mean()),
+        "row_limit": float(max(1, np.sort(left_out)[big // 2] / effective) * stats.chi2.isf(0.01, effective)),
+        "log_limit": float(np.exp(logs.mean() + stats.t.isf(0.01, big - 1) * spread)),
+        "distances": d2.tolist(),
+        "row_u_um": u.tolist(),
+    }
+
+
+def write_example(cycles, later):
+    files = [(f"{EXAMPLE}cycle-{i + 1}.csv", c) for i, c in enumerate(cycles)]
+    for name, (t, d, said) in files + [(NEW_DAY, later)]:
+        with open(name, "w") as out:
             out.write("# made for this project by oracles/thermal.py; no real lathe\n")
             out.write("time_min,drift_um," + ",".join(f"{s}_degC" for s in SENSORS) + "\n")
             for k in range(len(t)):
@@ -212,7 +306,8 @@ def outside():
 
 def main():
     cycles = make_cycles()
-    write_example(cycles)
+    later = new_day()
+    write_example(cycles, later)
     cases = {
         "cycle": evaluate(cycles, [LAG_S], "cycle", 3),
         "common": evaluate(cycles, [], "common", 3),
@@ -220,6 +315,9 @@ def main():
     }
     if runs := outside():
         cases["outside"] = evaluate(runs, [], "cycle", 4)
+    with open(LATER, "w") as out:
+        json.dump(score(cycles, later, [LAG_S], cases["cycle"]), out, indent=1)
+        out.write("\n")
     for name, case in cases.items():
         print(name, case["chosen"], case["um_per_k"], case["u_um_per_k"], case["sandwich_um_per_k"])
         for s in case["scores"]:

@@ -147,7 +147,7 @@ export type ShapeEntry =
       };
     };
 /**
- * An evaluation of readings by a standard: `trueaxis/evaluate/1`.
+ * An evaluation of readings by a standard, with what it says of the machine file: `trueaxis/evaluate/1`.
  */
 export type Evaluate = {
   /**
@@ -191,6 +191,14 @@ export type Evaluate = {
    */
   temperature_degC: number | null;
   /**
+   * Figures against their tolerances; null where none has one.
+   */
+  decisions: DecisionsEntry | null;
+  /**
+   * A circle as errors of the machine file; absent where no machine is named.
+   */
+  machine_errors?: MachineErrorsEntry | null;
+  /**
    * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
@@ -223,7 +231,7 @@ export type Evaluate = {
      */
     hint: string;
   }[];
-} & (PositioningEntry | CircularEntry | DriftEntry | DiagonalsEntry | RotationEntry);
+} & (PositioningEntry | GeometricEntry | CircularEntry | DriftEntry | DiagonalsEntry | RotationEntry | ProbingEntry);
 /**
  * A quantity of ISO 230-2, or the expanded uncertainties of all of them.
  */
@@ -325,10 +333,14 @@ export type Diagnosed = {
    */
   temperature_degC: number | null;
   /**
+   * Figures against their tolerances; null where none has one.
+   */
+  decisions: DecisionsEntry | null;
+  /**
    * The problems found in the input.
    */
   diagnostics: DiagnosticEntry[];
-} & (PositioningEntry | CircularEntry | DriftEntry | DiagonalsEntry | RotationEntry);
+} & (PositioningEntry | GeometricEntry | CircularEntry | DriftEntry | DiagonalsEntry | RotationEntry | ProbingEntry);
 /**
  * A picture of a report.
  */
@@ -572,10 +584,12 @@ export type ServeSocket =
       changed: ChangeEntry;
     };
 /**
- * @minItems 8
- * @maxItems 8
+ * @minItems 10
+ * @maxItems 10
  */
 export type ServeStandards = [
+  StandardEntry,
+  StandardEntry,
   StandardEntry,
   StandardEntry,
   StandardEntry,
@@ -610,9 +624,11 @@ export interface Documents {
   description: Description;
   diagnostic: Diagnostic;
   diff: Diff;
+  "evaluate-form": EvaluateForm;
   evaluate: Evaluate;
   "explain-list": ExplainList;
   explain: Explain;
+  history: History;
   "identify-errors": IdentifyErrors;
   "identify-expansion": IdentifyExpansion;
   "identify-expansions": IdentifyExpansions;
@@ -896,6 +912,10 @@ export interface Certificate {
    */
   reason: string;
   /**
+   * Number, customer, place, instruments with their certificates; null where they are not stated.
+   */
+  certificate: CertificateHead | null;
+  /**
    * The machine.
    */
   machine: MachineEntry;
@@ -964,6 +984,68 @@ export interface Certificate {
      */
     hint: string;
   }[];
+}
+/**
+ * The head of a certificate.
+ */
+export interface CertificateHead {
+  /**
+   * Its number.
+   */
+  number: string;
+  /**
+   * For whom; null if it is not stated.
+   */
+  customer: string | null;
+  /**
+   * The serial number of the machine; null if it is not stated.
+   */
+  machine_serial: string | null;
+  /**
+   * Who measured; null if it is not stated.
+   */
+  operator: string | null;
+  /**
+   * Where; null if it is not stated.
+   */
+  place: string | null;
+  /**
+   * The date of the certificate, as written.
+   */
+  date: string;
+  /**
+   * The instruments.
+   */
+  instruments: InstrumentUsed[];
+}
+/**
+ * An instrument with its certificate.
+ */
+export interface InstrumentUsed {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * Its serial number; null if it is not stated.
+   */
+  serial: string | null;
+  /**
+   * The number of its certificate.
+   */
+  certificate: string;
+  /**
+   * When it was calibrated, as written.
+   */
+  calibrated: string;
+  /**
+   * Until when that is valid, as written; null if it is not stated.
+   */
+  valid_until: string | null;
+  /**
+   * Whether it is valid on the date of the certificate; null if no end is stated.
+   */
+  is_valid: boolean | null;
 }
 /**
  * A machine by its name.
@@ -3261,6 +3343,417 @@ export interface TipShareEntry {
   largest_um: number;
 }
 /**
+ * The form of points: `trueaxis/evaluate-form/1`.
+ */
+export interface EvaluateForm {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/evaluate-form/1";
+  /**
+   * The version of the program.
+   */
+  version: string;
+  /**
+   * The file of the points.
+   */
+  file: string;
+  /**
+   * `line`, `plane`, `circle`, `sphere`, `cylinder` or `cone`.
+   */
+  element: string;
+  /**
+   * What its form deviation is called, such as `roundness`.
+   */
+  deviation: string;
+  /**
+   * How many points the file has.
+   */
+  points: number;
+  /**
+   * The normal of the plane of a profile or circle, if it is known. Unit: 1.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  plane_normal: [number, number, number] | null;
+  /**
+   * The filter; null if there is none.
+   */
+  filter: string | null;
+  /**
+   * The reference element that decides: `LSC`, `MZC`, `MCC` or `MIC`.
+   */
+  reference: string;
+  /**
+   * The form deviation by it, µm.
+   */
+  form_um: number;
+  /**
+   * Its expanded uncertainty, µm; null if nothing is known of the points.
+   */
+  U_um: number | null;
+  /**
+   * The tolerance, µm; null if there is none.
+   */
+  tolerance_um: number | null;
+  /**
+   * `pass`, `fail` or `undecided` by ISO 14253-1; null without a tolerance.
+   */
+  decision: string | null;
+  /**
+   * The least-squares element.
+   */
+  least_squares: LeastSquaresEntry;
+  /**
+   * Every reference element.
+   */
+  references: ReferenceEntry[];
+  /**
+   * Angle with points, degrees; null for lines and planes.
+   */
+  covered_deg: number | null;
+  /**
+   * Deviations of the points from the deciding element, after the filter, µm.
+   */
+  deviations_um: number[];
+  /**
+   * The problems found in the input; the command line prints them on standard error, too.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * The least-squares element with standard uncertainties (k = 1); null where nothing is known of the points.
+ */
+export interface LeastSquaresEntry {
+  /**
+   * Centre, or point of the element next to the middle of the points, mm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  point_mm: [number, number, number];
+  /**
+   * Its standard uncertainty, mm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  point_u_mm: [number, number, number] | null;
+  /**
+   * Direction of the line or axis, or normal; null for a sphere. Unit: 1.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  direction: [number, number, number] | null;
+  /**
+   * Its standard uncertainty. Unit: 1.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  direction_u: [number, number, number] | null;
+  /**
+   * Angle to the nearest axis of the frame, degrees; null for a sphere.
+   */
+  tilt_deg: number | null;
+  /**
+   * That axis.
+   */
+  tilt_to: string | null;
+  /**
+   * Its standard uncertainty, degrees.
+   */
+  tilt_u_deg: number | null;
+  /**
+   * Radius, of a cone at its point; null for lines and planes, mm.
+   */
+  radius_mm: number | null;
+  /**
+   * Its standard uncertainty, mm.
+   */
+  radius_u_mm: number | null;
+  /**
+   * Half of the angle at the apex of a cone, degrees.
+   */
+  half_angle_deg: number | null;
+  /**
+   * Its standard uncertainty, degrees.
+   */
+  half_angle_u_deg: number | null;
+  /**
+   * Apex of a cone, mm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  apex_mm: [number, number, number] | null;
+  /**
+   * Standard deviation of the residuals, µm.
+   */
+  residual_um: number;
+  /**
+   * Their degrees of freedom.
+   */
+  degrees_of_freedom: number;
+  /**
+   * Standard deviation along the normal of a circle, if its plane was fitted, µm.
+   */
+  axial_residual_um: number | null;
+  /**
+   * Standard uncertainty of a point that the others follow from, µm.
+   */
+  point_uncertainty_um: number | null;
+  /**
+   * Where it comes from: `stated`, `scatter`, or `scatter, larger than stated`.
+   */
+  uncertainty_from: string | null;
+  /**
+   * k for U of these values. Unit: 1.
+   */
+  coverage_factor: number | null;
+}
+/**
+ * One reference element.
+ */
+export interface ReferenceEntry {
+  /**
+   * `LSC`, `MZC`, `MCC` or `MIC`.
+   */
+  reference: string;
+  /**
+   * The form deviation, µm.
+   */
+  form_um: number;
+  /**
+   * Its expanded uncertainty, µm.
+   */
+  U_um: number | null;
+  /**
+   * Its standard deviation by noise of the points, µm.
+   */
+  noise_u_um: number | null;
+  /**
+   * What noise adds to it at most, µm.
+   */
+  noise_bias_um: number | null;
+  /**
+   * Centre, or point of the element, mm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  point_mm: [number, number, number];
+  /**
+   * Direction or normal; null for a sphere. Unit: 1.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  direction: [number, number, number] | null;
+  /**
+   * Radius; null for lines and planes, mm.
+   */
+  radius_mm: number | null;
+  /**
+   * Half of the angle at the apex of a cone, degrees.
+   */
+  half_angle_deg: number | null;
+  /**
+   * `global`, `bound`, `local` or `none`; null for least squares.
+   */
+  proof: string | null;
+  /**
+   * With `bound`: no other element has a smaller form deviation (inscribed: larger radius) than this, mm.
+   */
+  bound_mm: number | null;
+  /**
+   * With `local`: starts that were tried, and those that came to this result.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  starts: [number, number] | null;
+  /**
+   * The points that hold it.
+   */
+  contacts: ContactEntry[];
+}
+/**
+ * A point that holds an element.
+ */
+export interface ContactEntry {
+  /**
+   * Its number, from 1, after the filter.
+   */
+  point: number;
+  /**
+   * `outer` or `inner`.
+   */
+  side: string;
+  /**
+   * Its multiplier. Unit: 1.
+   */
+  weight: number;
+}
+/**
+ * Figures against their tolerances.
+ */
+export interface DecisionsEntry {
+  /**
+   * `ISO 14253-1` or `simple`.
+   */
+  rule: string;
+  /**
+   * `conforming`, `not conforming` or `neither proved`: the worst of all.
+   */
+  decision: string;
+  /**
+   * Every figure that has a tolerance.
+   */
+  figures: ServeEvaluateDecisionEntry[];
+}
+/**
+ * A figure with its tolerance.
+ */
+export interface ServeEvaluateDecisionEntry {
+  /**
+   * Its name.
+   */
+  figure: string;
+  /**
+   * Effective degrees of freedom of U; null for infinitely many, and where U is not known. Unit: 1.
+   */
+  degrees_of_freedom: number | null;
+  /**
+   * The coverage factor of U; null where U is not known. Unit: 1.
+   */
+  k: number | null;
+  /**
+   * `conforming`, `not conforming` or `neither proved`.
+   */
+  decision: string;
+  [k: string]: number | null;
+}
+/**
+ * A circle as errors of the machine file.
+ */
+export interface MachineErrorsEntry {
+  /**
+   * The errors that change.
+   */
+  written: WrittenEntry[];
+  /**
+   * The causes that change nothing, and why.
+   */
+  left: LeftEntry[];
+  /**
+   * Every cause in the readings and as the virtual ball-bar of the machine file shows it, before and after.
+   */
+  compared: ComparedEntry[];
+  /**
+   * Standard deviation of reading − virtual ball-bar of the machine file as it was, µm.
+   */
+  residual_before_um: number;
+  /**
+   * The same of the new machine file, µm.
+   */
+  residual_after_um: number;
+}
+/**
+ * An error of the machine file that changes.
+ */
+export interface WrittenEntry {
+  /**
+   * Its ISO 230-1 name.
+   */
+  error: string;
+  /**
+   * What the file states now.
+   */
+  value: string;
+  /**
+   * The causes that it states.
+   */
+  causes: string[];
+}
+/**
+ * A cause that changes nothing.
+ */
+export interface LeftEntry {
+  /**
+   * Which.
+   */
+  cause: string;
+  /**
+   * Of which axis; null where it belongs to both.
+   */
+  axis: string | null;
+  /**
+   * Why.
+   */
+  why: string;
+}
+/**
+ * A cause before and after.
+ */
+export interface ComparedEntry {
+  /**
+   * Which.
+   */
+  cause: string;
+  /**
+   * Of which axis; null where it belongs to both.
+   */
+  axis: string | null;
+  /**
+   * `um` or `urad`: the unit of the numbers.
+   */
+  unit: string;
+  /**
+   * From the readings. Unit: that of `unit`.
+   */
+  read: number;
+  /**
+   * From the machine file as it was. Unit: that of `unit`.
+   */
+  before: number;
+  /**
+   * From the new machine file. Unit: that of `unit`.
+   */
+  after: number;
+}
+/**
  * Positioning of an axis. Deviations of linear axes end in `_um` (µm), those of rotary axes are given twice, in
  * `_urad` (µrad) and `_arcsec` (arcseconds). For each unit there are the quantities `A`, `A_up`, `A_down`, `R`,
  * `R_up`, `R_down`, `E`, `E_up`, `E_down`, `M`, `B` and `B_mean` of ISO 230-2, then an object `U` with their
@@ -3327,6 +3820,131 @@ export interface PositionEntry {
   [k: string]: number | null;
 }
 /**
+ * A geometric test.
+ */
+export interface GeometricEntry {
+  /**
+   * `straightness`, `flatness`, `squareness` or `parallelism`.
+   */
+  kind: string;
+  /**
+   * The machine error that it is, such as `EYX`; null if none is stated.
+   */
+  error: string | null;
+  /**
+   * All quantities; the first one is judged.
+   */
+  quantities: GeometricQuantityEntry[];
+  /**
+   * What is allowed of the first quantity, µm; null without tolerance or for an angle.
+   */
+  tolerance_um: number | null;
+  /**
+   * What is allowed of the first quantity, µrad; null without tolerance or for a length.
+   */
+  tolerance_urad: number | null;
+  /**
+   * `pass`, `fail` or `undecided` by ISO 14253-1; null without tolerance.
+   */
+  outcome: string | null;
+  /**
+   * Standard deviation of a reading from runs or closure, µm; null if it is not known or an angle.
+   */
+  reading_s_um: number | null;
+  /**
+   * Standard deviation of a reading from runs or closure, µrad; null if it is not known or a length.
+   */
+  reading_s_urad: number | null;
+  /**
+   * Degrees of freedom of this standard deviation; null without it. Unit: 1.
+   */
+  degrees_of_freedom: number | null;
+  /**
+   * The lines about their reference.
+   */
+  lines: GeometricLineEntry[];
+  /**
+   * The points of a surface.
+   */
+  surface: SurfacePointEntry[];
+  /**
+   * The closure errors of the lines of a surface.
+   */
+  closures: ClosureEntry[];
+}
+/**
+ * A quantity of a geometric test: in µm or in µrad.
+ */
+export interface GeometricQuantityEntry {
+  /**
+   * Its name; of a squareness the machine error.
+   */
+  name: string;
+  /**
+   * Its value, µm; null for an angle.
+   */
+  value_um: number | null;
+  /**
+   * Its expanded uncertainty, 95 %, µm; null for an angle, or if it is not known.
+   */
+  u_um: number | null;
+  /**
+   * Its value, µrad; null for a length.
+   */
+  value_urad: number | null;
+  /**
+   * Its expanded uncertainty, 95 %, µrad; null for a length, or if it is not known.
+   */
+  u_urad: number | null;
+}
+/**
+ * A line about its reference.
+ */
+export interface GeometricLineEntry {
+  /**
+   * Which.
+   */
+  name: string;
+  /**
+   * Positions, mm.
+   */
+  positions_mm: number[];
+  /**
+   * Deviations, µm.
+   */
+  deviations_um: number[];
+}
+/**
+ * A point of a surface.
+ */
+export interface SurfacePointEntry {
+  /**
+   * Place, mm.
+   */
+  x_mm: number;
+  /**
+   * Place, mm.
+   */
+  y_mm: number;
+  /**
+   * Deviation from the reference plane, µm.
+   */
+  deviation_um: number;
+}
+/**
+ * What the closure of a surface changed of a line.
+ */
+export interface ClosureEntry {
+  /**
+   * The line.
+   */
+  line: string;
+  /**
+   * How far its own profile is from the surface, at most, µm.
+   */
+  largest_um: number;
+}
+/**
  * A circular test by ISO 230-4. For each sense (`ccw`, `cw`) there are `G_ccw_um`, `F_ccw_max_um` and
  * `F_ccw_min_um`, then the same over all paths: `G_um`, `G_b_um`, `F_max_um`, `F_min_um` and `D_um`.
  */
@@ -3357,6 +3975,10 @@ export interface CircularEntry {
    * The causes of the deviations; null if they cannot be separated.
    */
   causes: CausesEntry | null;
+  /**
+   * All causes with uncertainties and shares; null without a whole circle in both directions and its radius.
+   */
+  diagnosis: DiagnosisEntry | null;
 }
 /**
  * One path of a circular test.
@@ -3464,6 +4086,80 @@ export interface SpikeEntry {
    * Largest residual after the reversal, outward positive, µm.
    */
   height_um: number;
+}
+/**
+ * The causes of a circle with their uncertainties and shares.
+ */
+export interface DiagnosisEntry {
+  /**
+   * The causes, the largest share first.
+   */
+  causes: CauseEntry[];
+  /**
+   * Standard deviation of the residuals, µm.
+   */
+  residual_um: number;
+  /**
+   * Degrees of freedom of the residuals, which follow each other closely. Unit: 1.
+   */
+  degrees_of_freedom: number;
+  /**
+   * By how much the axes lag one another, s; null where no feed is stated.
+   */
+  servo_lag_s: number | null;
+}
+/**
+ * One cause: its value with U, in µm or µrad, and what it does to the circle.
+ */
+export interface CauseEntry {
+  /**
+   * `squareness`, `scale-mismatch`, `size`, `servo-mismatch`, `backlash`, `lateral-play`, `straightness`,
+   * `cyclic-error`, `reversal-spike` or `unexplained`.
+   */
+  cause: string;
+  /**
+   * The axis that it belongs to; null where it belongs to both.
+   */
+  axis: string | null;
+  /**
+   * Its value, µm; null for an angle.
+   */
+  value_um: number | null;
+  /**
+   * Its expanded uncertainty (95.45 %), µm; null for an angle.
+   */
+  U_um: number | null;
+  /**
+   * Its value, µrad; null for a length.
+   */
+  value_urad: number | null;
+  /**
+   * Its expanded uncertainty (95.45 %), µrad; null for a length.
+   */
+  U_urad: number | null;
+  /**
+   * Effective degrees of freedom (Welch-Satterthwaite); null for infinitely many. Unit: 1.
+   */
+  degrees_of_freedom: number | null;
+  /**
+   * The coverage factor of U. Unit: 1.
+   */
+  k: number;
+  /**
+   * A backlash where the axis reverses at its positive and its negative end, µm; null for others.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  ends_um: [number, number] | null;
+  /**
+   * The bidirectional circular deviation that it makes alone, µm.
+   */
+  alone_um: number;
+  /**
+   * Its part of the sum of all these, percent.
+   */
+  share_percent: number;
 }
 /**
  * Drift by ISO 230-3.
@@ -3646,6 +4342,73 @@ export interface MotionEntry {
   fundamental_um: number;
 }
 /**
+ * A probing test.
+ */
+export interface ProbingEntry {
+  /**
+   * The quantities.
+   */
+  quantities: ProbingQuantityEntry[];
+  /**
+   * Standard deviation of a hit at one point, µm; null without repeated hits.
+   */
+  hit_s_um: number | null;
+  /**
+   * Degrees of freedom of it; null without repeated hits. Unit: 1.
+   */
+  degrees_of_freedom: number | null;
+  /**
+   * The deviations of rings and spheres.
+   */
+  deviations: ProbingDeviationsEntry[];
+}
+/**
+ * A quantity of a probing test.
+ */
+export interface ProbingQuantityEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * Its value, µm.
+   */
+  value_um: number;
+  /**
+   * Its expanded uncertainty, 95 %, µm; null of a range of repeated readings, or if it is not known.
+   */
+  u_um: number | null;
+  /**
+   * What is allowed, µm; null without tolerance.
+   */
+  tolerance_um: number | null;
+  /**
+   * `pass`, `fail` or `undecided`; null without tolerance.
+   */
+  outcome: string | null;
+}
+/**
+ * The deviations of a ring or sphere from its least-squares element.
+ */
+export interface ProbingDeviationsEntry {
+  /**
+   * Which.
+   */
+  name: string;
+  /**
+   * Angles in the plane x y, degrees.
+   */
+  angles_deg: number[];
+  /**
+   * Height angles over this plane, degrees; 0 of a ring.
+   */
+  heights_deg: number[];
+  /**
+   * Deviations of the radius, µm.
+   */
+  deviations_um: number[];
+}
+/**
  * The codes of all diagnostics.
  */
 export interface ExplainList {
@@ -3763,6 +4526,174 @@ export interface Explain {
   }[];
 }
 /**
+ * Figures of one machine over its calibrations: `trueaxis/history/1`.
+ */
+export interface History {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/history/1";
+  /**
+   * The version of the program.
+   */
+  version: string;
+  /**
+   * The machine.
+   */
+  machine: string;
+  /**
+   * Whether nothing needs attention: no jump, no point outside of the control limits, no limit exceeded.
+   */
+  quiet: boolean;
+  /**
+   * Every figure with at least two dates.
+   */
+  series: SeriesEntry[];
+  /**
+   * Figures with one date only.
+   */
+  single: string[];
+  /**
+   * The problems found in the input; the command line prints them on standard error, too.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * A figure over time.
+ */
+export interface SeriesEntry {
+  /**
+   * Its name.
+   */
+  figure: string;
+  /**
+   * The unit of its numbers: `um`, `urad`, `arcsec`.
+   */
+  unit: string;
+  /**
+   * Its points by date.
+   */
+  points: PointEntry[];
+  /**
+   * Change in a year. Unit: that of `unit`.
+   */
+  slope_per_year: number | null;
+  /**
+   * Its expanded uncertainty (95.45 %); null where nothing is known of it. Unit: that of `unit`.
+   */
+  U_slope_per_year: number | null;
+  /**
+   * Its degrees of freedom; null for infinitely many. Unit: 1.
+   */
+  degrees_of_freedom: number | null;
+  /**
+   * Its coverage factor. Unit: 1.
+   */
+  k: number | null;
+  /**
+   * Lower limit, mean and upper limit of the chart of individuals; null below three points. Unit: that of `unit`.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  control_limits: [number, number, number] | null;
+  /**
+   * The dates of points outside of them.
+   */
+  outside: string[];
+  /**
+   * Changes beyond U of both calibrations.
+   */
+  jumps: JumpEntry[];
+  /**
+   * The limit; null where none is stated. Unit: that of `unit`.
+   */
+  limit: number | null;
+  /**
+   * Whether the last value is beyond the limit; null where none is stated.
+   */
+  exceeded: boolean | null;
+  /**
+   * When the trend reaches the limit; null if not within a century.
+   */
+  reached: string | null;
+  /**
+   * The same as early as U of the slope allows.
+   */
+  reached_earliest: string | null;
+}
+/**
+ * A figure on a day.
+ */
+export interface PointEntry {
+  /**
+   * The date.
+   */
+  date: string;
+  /**
+   * The value. Unit: that of `unit`.
+   */
+  value: number;
+  /**
+   * Its standard uncertainty; null where none is stated. Unit: that of `unit`.
+   */
+  u: number | null;
+  /**
+   * The file.
+   */
+  file: string;
+}
+/**
+ * A change from one calibration to the next.
+ */
+export interface JumpEntry {
+  /**
+   * From when.
+   */
+  from: string;
+  /**
+   * To when.
+   */
+  to: string;
+  /**
+   * The change. Unit: that of `unit`.
+   */
+  change: number;
+  /**
+   * Its expanded uncertainty (k = 2). Unit: that of `unit`.
+   */
+  U: number;
+}
+/**
  * Errors identified from the readings of a campaign.
  */
 export interface IdentifyErrors {
@@ -3876,9 +4807,22 @@ export interface IdentifyErrors {
    */
   birge_ratio: number;
   /**
-   * Which axes the residual of the held-out places follows.
+   * The test of the residual.
+   */
+  test: TestEntry;
+  /**
+   * How many standard uncertainties contain a value with 95 %: 2, or Student's t where the noise was found from the
+   * residual. Unit: 1.
+   */
+  coverage_factor: number;
+  /**
+   * What the residual follows, the most evident first.
    */
   residual_follows: IdentifyErrorsFieldEntry[];
+  /**
+   * How well readings are predicted; null if that was not asked for.
+   */
+  prediction: PredictionEntry | null;
   /**
    * How the terms were selected.
    */
@@ -3938,8 +4882,8 @@ export interface IdentifyErrors {
  */
 export interface VerdictEntry {
   /**
-   * `explained`, `over-fitted`, `follows-xyz`, `turns-with-axis`, `unexplained` or
-   * `stages-contradict`.
+   * `explained`, `over-fitted`, `follows-xyz`, `turns-with-axis`, `arrangement`, `reverses`, `drifts`,
+   * `gross-readings`, `unexplained` or `stages-contradict`.
    */
   key: string;
   /**
@@ -4168,17 +5112,81 @@ export interface PassesFor {
   unit: string;
 }
 /**
+ * The test of the residual against noise or repeatability.
+ */
+export interface TestEntry {
+  /**
+   * `chi-square` against the stated noise, or `F` against repeated readings.
+   */
+  statistic: string;
+  /**
+   * Its value. Unit: 1.
+   */
+  value: number;
+  /**
+   * What it exceeds by chance, at this level; null without degrees of freedom. Unit: 1.
+   */
+  limit: number | null;
+  /**
+   * How often a good campaign exceeds it. Unit: 1.
+   */
+  level: number;
+  /**
+   * Degrees of freedom of the residual. Unit: 1.
+   */
+  degrees_of_freedom: number;
+  /**
+   * Those of the repeatability; null for `chi-square`. Unit: 1.
+   */
+  degrees_of_freedom_of_repeats: number | null;
+}
+/**
  * A part of the residual.
  */
 export interface IdentifyErrorsFieldEntry {
   /**
-   * `XYZ`, or the letter of a rotary axis.
+   * The letter of an axis, `arrangement` (location errors), `approach` or `time`.
    */
   what: string;
   /**
-   * The share of the squares of the residual, 0 to 1. Unit: 1.
+   * The share of the squares of the residual that this kind of error, which is not listed, would explain alone,
+   * 0 to 1. Unit: 1.
    */
   share: number;
+}
+/**
+ * How well readings are predicted, by all errors together.
+ */
+export interface PredictionEntry {
+  /**
+   * On the readings themselves.
+   */
+  in_sample: RmsEntry;
+  /**
+   * On readings that were held out.
+   */
+  held_out: HeldOutEntry[];
+}
+/**
+ * Readings that were predicted without them.
+ */
+export interface HeldOutEntry {
+  /**
+   * The rotary axis of which one angle after the other was held out; null: a part of the places.
+   */
+  axis: string | null;
+  /**
+   * How many parts.
+   */
+  parts: number;
+  /**
+   * The residual by the listed errors alone.
+   */
+  listed: RmsEntry;
+  /**
+   * The residual by all errors, listed or not.
+   */
+  all: RmsEntry;
 }
 /**
  * How the terms were selected.
@@ -6066,6 +7074,10 @@ export interface IdentifyThermal {
    */
   warnings: string[];
   /**
+   * How later logs agree with it; null without later logs.
+   */
+  later: ScoringEntry | null;
+  /**
    * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
@@ -6201,6 +7213,182 @@ export interface CycleEntry {
    * Root mean square of the residual, predicted without this cycle, µm.
    */
   held_out_um: number;
+}
+/**
+ * How later logs agree with the model.
+ */
+export interface ScoringEntry {
+  /**
+   * `as promised` or `worse than promised`.
+   */
+  verdict: string;
+  /**
+   * What the model left of whole cycles that it had not seen, rms, µm.
+   */
+  promised_um: number;
+  /**
+   * Expanded uncertainty of a row within the pattern of the sensors, 95.45 %, µm.
+   */
+  promised_u_um: number;
+  /**
+   * The factor of U (Student's t). Unit: 1.
+   */
+  coverage_factor: number;
+  /**
+   * Degrees of freedom of the factor: cycles less one.
+   */
+  degrees_of_freedom: number;
+  /**
+   * A row with a larger squared distance is outside the pattern. Unit: 1.
+   */
+  row_limit: number;
+  /**
+   * A log with a larger mean of it is outside the pattern. Unit: 1.
+   */
+  log_limit: number;
+  /**
+   * The later logs.
+   */
+  logs: ScoredLogEntry[];
+}
+/**
+ * A later log.
+ */
+export interface ScoredLogEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * `as promised` or `worse than promised`.
+   */
+  verdict: string;
+  /**
+   * Number of its rows.
+   */
+  rows: number;
+  /**
+   * Of the displacement without a model, rms, µm.
+   */
+  no_model_um: number;
+  /**
+   * Of the residual after its zero is removed, rms, µm.
+   */
+  left_um: number;
+  /**
+   * The largest residual with its sign, µm.
+   */
+  largest_um: number;
+  /**
+   * Of the expanded uncertainty of the rows, which grows outside the pattern, rms, µm.
+   */
+  u_um: number;
+  /**
+   * Share of the rows whose residual is within their U. Unit: 1.
+   */
+  within_u: number;
+  /**
+   * Whether the sensors moved as in the logs of the model: `inside`, `partly outside` or `outside`.
+   */
+  pattern: string;
+  /**
+   * Rows outside the pattern.
+   */
+  rows_outside: number;
+  /**
+   * Mean squared distance of the rows from the pattern (Mahalanobis). Unit: 1.
+   */
+  mean_distance: number;
+  /**
+   * How much warmer all sensors together are than in the mean of the logs of the model, K.
+   */
+  warmer_k: number;
+  /**
+   * Logs of the same pattern are within this, K; null if one zero holds for all logs.
+   */
+  warmer_limit_k: number | null;
+  /**
+   * Squared distance of each row. Unit: 1.
+   */
+  distances: number[];
+  /**
+   * Expanded uncertainty of each row, µm.
+   */
+  row_u_um: number[];
+  /**
+   * Residual of each row, µm.
+   */
+  row_left_um: number[];
+  /**
+   * Sensors beyond their range.
+   */
+  sensors_outside: SensorOutsideEntry[];
+  /**
+   * Sensors that are not where the others say, in the farthest row.
+   */
+  combinations: CombinationEntry[];
+}
+/**
+ * A sensor beyond its range.
+ */
+export interface SensorOutsideEntry {
+  /**
+   * The sensor.
+   */
+  sensor: string;
+  /**
+   * Here, °C.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  range_celsius: [number, number];
+  /**
+   * In the logs of the model, °C.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  logged_celsius: [number, number];
+  /**
+   * From its zero, K.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  moved_k: [number, number];
+  /**
+   * From its zero in the logs of the model, K.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  logged_moved_k: [number, number];
+}
+/**
+ * A sensor that is not where the others say.
+ */
+export interface CombinationEntry {
+  /**
+   * The sensor.
+   */
+  sensor: string;
+  /**
+   * Time constant of its lag, s; null without lag.
+   */
+  lag_s: number | null;
+  /**
+   * Number of the row, from 1.
+   */
+  row: number;
+  /**
+   * How far it is from what the others say, K.
+   */
+  off_k: number;
+  /**
+   * Standard deviation of that in the logs of the model, K.
+   */
+  usual_k: number;
 }
 /**
  * Tools as they were measured.
@@ -6340,7 +7528,7 @@ export interface MeasurePart {
   /**
    * The points.
    */
-  points: PointEntry[];
+  points: MeasurePartPointEntry[];
   /**
    * The problems found in the input; the command line prints them on standard error, too.
    */
@@ -6391,7 +7579,7 @@ export interface TrueIndexEntry {
 /**
  * A point of a virtual part.
  */
-export interface PointEntry {
+export interface MeasurePartPointEntry {
   /**
    * The number of its section, from 1 at the base.
    */
@@ -8421,9 +9609,22 @@ export interface ServeIdentifyDiagnosed {
    */
   birge_ratio: number;
   /**
-   * Which axes the residual of the held-out places follows.
+   * The test of the residual.
+   */
+  test: TestEntry;
+  /**
+   * How many standard uncertainties contain a value with 95 %: 2, or Student's t where the noise was found from the
+   * residual. Unit: 1.
+   */
+  coverage_factor: number;
+  /**
+   * What the residual follows, the most evident first.
    */
   residual_follows: ServeIdentifyFieldEntry[];
+  /**
+   * How well readings are predicted; null if that was not asked for.
+   */
+  prediction: PredictionEntry | null;
   /**
    * How the terms were selected.
    */
@@ -8454,11 +9655,12 @@ export interface ServeIdentifyDiagnosed {
  */
 export interface ServeIdentifyFieldEntry {
   /**
-   * `XYZ`, or the letter of a rotary axis.
+   * The letter of an axis, `arrangement` (location errors), `approach` or `time`.
    */
   what: string;
   /**
-   * The share of the squares of the residual, 0 to 1. Unit: 1.
+   * The share of the squares of the residual that this kind of error, which is not listed, would explain alone,
+   * 0 to 1. Unit: 1.
    */
   share: number;
 }

@@ -15,12 +15,20 @@ $trueaxis check "$out/tables/machine.toml"
 # How does the spindle drift with temperatures, and which sensors explain it? Judged on held-out logs.
 $trueaxis identify thermal examples/05_identify/lathe-thermal.toml
 $trueaxis identify thermal examples/05_identify/lathe-thermal.toml --format json
+# A later day with a pattern of temperatures that the logs have not: worse than promised, exit status 1.
+$trueaxis identify thermal examples/05_identify/lathe-thermal.toml --score examples/05_identify/lathe-new-day.csv || [ $? -eq 1 ]
 # Which location errors does the machine have, and which can a probe on one ball not separate?
 $trueaxis identify examples/05_identify/probe-ball.toml --report "${TMPDIR:-/tmp}/probe-ball.html" -o "${TMPDIR:-/tmp}/probe-ball-machine.toml"
 $trueaxis identify examples/05_identify/probe-ball.toml --format json
 # The same poses standing, at 30 and at 150 mm/min: what follows the feed is the servo.
 $trueaxis identify examples/05_identify/probe-ball-two-feeds.toml --report "${TMPDIR:-/tmp}/two-feeds.html"
 $trueaxis identify examples/05_identify/probe-ball-two-feeds.toml --format json
+# Two cones about a ball on a table that warms up: the rest drifts with time, exit status 1.
+$trueaxis identify examples/05_identify/cone-path.toml || test $? -eq 1
+$trueaxis plan examples/05_identify/cone-path.toml
+# Centres of one ball on a head-head router, errors of X, Y, Z not listed: the rest follows them, exit status 1.
+$trueaxis identify examples/05_identify/head-head.toml --report "${TMPDIR:-/tmp}/head-head.html" || test $? -eq 1
+$trueaxis identify examples/05_identify/head-head.toml --format json || test $? -eq 1
 # Ball-bar, R-test and laser at once.
 $trueaxis identify examples/05_identify/mixed-instruments.toml
 $trueaxis identify examples/05_identify/mixed-instruments.toml --check-conventions

@@ -1,24 +1,26 @@
 //! Identify: what the machine is like, from measurements.
 //!
-//! - [`rtcp`]: the rotary centres for the tool-centre-point control;
 //! - [`probe`]: the offset of a stylus ball and its pre-travel by direction;
 //! - [`surface`](mod@surface): deviations of a surface from the hits of a probing program;
 //! - [`errors`](mod@errors): the errors of the machine from any mix of instruments, the whole way from
 //!   readings to a verdict; what is unknown and how readings follow it stands in [`trueaxis_measure::unknowns`].
 
+pub mod adequacy;
+mod assumptions;
 pub mod checks;
 pub mod conflict;
 pub mod convention;
 pub mod covariance_file;
 pub mod errors;
 pub mod feeds;
+mod gross;
 pub mod influence;
-pub mod leftover;
 mod log_words;
 pub mod machine_file;
+pub mod predictor;
 pub mod probe;
 pub mod records;
-pub mod rtcp;
+pub mod robust;
 pub mod score;
 pub mod selection;
 pub mod stage_tables;

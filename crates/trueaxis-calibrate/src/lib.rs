@@ -14,7 +14,7 @@ pub mod report;
 
 use report::{
     HitsDocument, IdentificationDocument, MeasuredToolsDocument, PlanDocument, ProbeDocument,
-    RtcpDocument, SurfaceDocument, ToolSettingDocument,
+    SurfaceDocument, ToolSettingDocument,
 };
 use trueaxis_report::{NamedSchema, named_schema};
 
@@ -23,7 +23,6 @@ pub fn schemas() -> Vec<NamedSchema> {
     vec![
         named_schema::<IdentificationDocument<'_>>("identify-errors"),
         named_schema::<ProbeDocument<'_>>("identify-probe"),
-        named_schema::<RtcpDocument<'_>>("identify-rtcp"),
         named_schema::<HitsDocument<'_>>("identify-surface"),
         named_schema::<MeasuredToolsDocument<'_>>("identify-tools"),
         named_schema::<PlanDocument<'_>>("plan"),

@@ -1,5 +1,6 @@
 //! Plans, measurements and identifications as text, JSON and pages.
 
+mod adequacy;
 mod hits;
 mod hits_document;
 mod identification;
@@ -11,8 +12,6 @@ mod plan_document;
 mod probe;
 mod probe_document;
 mod probe_pictures;
-mod rtcp;
-mod rtcp_document;
 mod stages;
 mod surface;
 mod surface_document;
@@ -28,8 +27,6 @@ pub use plan::plan_report;
 pub use plan_document::PlanDocument;
 pub use probe::{corrected_csv, probe_report, probe_table_csv};
 pub use probe_document::ProbeDocument;
-pub use rtcp::{RtcpReport, rtcp_report};
-pub use rtcp_document::RtcpDocument;
 pub use surface::surface_report;
 pub use surface_document::SurfaceDocument;
 pub use tool_setting::{setting_report, tools_report};

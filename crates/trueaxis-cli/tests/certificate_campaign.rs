@@ -22,7 +22,7 @@ kind = "probe-ball"
 socket = "0 0 -330 mm"
 ball = "0 0 0 mm"
 noise = "1 um"
-unknown = { ball = "free" }
+unknown = { ball = "free", socket = "0.1 um" }
 readings = "readings/probe.csv"
 [[path]]
 kind = "random"
@@ -211,7 +211,7 @@ fn a_pose_of_the_campaign_proves_nothing() {
 #[test]
 fn what_a_campaign_cannot_tell_is_not_certified() {
     let folder = workshop("certificate-campaign-unseen");
-    let free = CAMPAIGN.replace("ball = \"free\"", "ball = \"free\", socket = \"free\"");
+    let free = CAMPAIGN.replace("socket = \"0.1 um\"", "socket = \"free\"");
     let free = free.replace(
         "ball_z = \"0.012 mm\"",
         "ball_z = \"0.012 mm\", socket_x = \"0 mm\", socket_y = \"0 mm\", socket_z = \"0 mm\"",

@@ -28,7 +28,7 @@ fn what_cannot_be_used_is_refused_with_its_place() {
     for (standard, text, code, place) in [
         ("iso230-2", "target_mm,direction,deviation_um\n0,up,nan\n", "not-a-number", ":2:6"),
         ("iso230-2", "target_mm,direction,deviation_um\n0,sideways,1\n", "bad-direction", ":2:1"),
-        ("iso230-2", "target_mm;direction\n0;up\n", "bad-separator", ":1:1"),
+        ("iso230-2", "target_mm;direction\n0;up\n", "missing-column", ":1:1"),
         (
             "iso230-2",
             "target_mm,deviation_um,temperature_degC\n0,1,20\n9,1,68\n",
@@ -126,4 +126,37 @@ fn the_forms_of_others_are_read_or_refused_with_what_they_lack() {
     assert_eq!(ran.err.matches("warning[not-by-the-standard]").count(), 2, "{}", ran.err);
     assert!(ran.err.contains("prints E = 2.00 µm; by ISO 230-2:2014 E is 4.00 µm"));
     assert!(ran.err.contains("report.md:39:1"));
+}
+
+/// The verdict of a geometric and of a probing test is the exit status.
+#[test]
+fn a_tolerance_decides_the_exit_status() {
+    let folder = Folder::new("evaluate-tolerance");
+    let plate = "examples/07_verify/moody-1955.csv";
+    let beside =
+        std::fs::read_to_string(command::root().join("examples/07_verify/moody-1955.toml"));
+    let beside = beside.expect("conditions");
+    // 4.07 µm with U = 0.37 µm.
+    for (allowed, status, outcome) in
+        [("8 um", 0, "pass"), ("4.2 um", 1, "undecided"), ("3 um", 1, "fail")]
+    {
+        let conditions = folder.path("plate.toml");
+        std::fs::write(&conditions, beside.replace("8 um", allowed)).expect("written");
+        let ran = trueaxis(&[
+            "evaluate",
+            "iso230-1",
+            plate,
+            "--conditions",
+            &conditions,
+            "--format",
+            "json",
+        ]);
+        assert_eq!((ran.status, ran.json()["outcome"].as_str()), (status, Some(outcome)));
+    }
+    let ran = trueaxis(&["evaluate", "iso230-1", "examples/07_verify/circle-xy.csv"]);
+    assert_eq!(ran.status, 2);
+    assert!(ran.err.contains("error[missing-test]"), "{}", ran.err);
+    let ran = trueaxis(&["evaluate", "iso230-10", "examples/07_verify/probe-performance.csv"]);
+    assert_eq!(ran.status, 0);
+    assert!(ran.out.contains("P_FTU,3D of sphere at 0°"), "{}", ran.out);
 }

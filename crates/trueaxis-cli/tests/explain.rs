@@ -9,9 +9,9 @@ use std::fs;
 use std::path::Path;
 
 /// Words of the sources that look like codes: names of shapes, files, HTTP headers, choices.
-const OTHER_WORDS: &str = "ball-bar cache-control content-security-policy content-type \
+const OTHER_WORDS: &str = "ball-centre chi-square gross-readings ball-bar cyclic-error iso14253-1 lateral-play reversal-spike scale-mismatch servo-mismatch target-count cache-control content-security-policy content-type \
     counter-clockwise cross-origin-opener-policy cross-origin-resource-policy cut-piece ecmc-md \
-    follows-xyz four-hits four-hits-corrected gbt17421-2 head-head iso230-2 iso230-3 iso230-4 iso230-6 iso230-7 laser-angle \
+    follows-xyz four-hits four-hits-corrected gbt17421-2 head-head iso230-1 iso230-10 iso230-2 iso230-3 iso230-4 iso230-6 iso230-7 laser-angle \
     laser-line least-squares length-tracker linuxcnc-trims no-referrer no-store not-a-knot on-axis on-cone \
     over-fitted probe-ball referrer-policy ring-corrected ring-hits surface-hits z-datum z-datum-corrected same-origin sans-serif set-error set-up simulation-at \
     simulation-block simulation-curves simulation-path simulation-source small-angle stages-contradict table-table \

@@ -170,3 +170,37 @@ fn studies_that_cannot_be_used_are_refused_with_their_place() {
         assert_eq!((ran.status, ran.out.as_str()), (2, ""), "{}", ran.err);
     }
 }
+
+/// A later day with a new pattern: exit status 1, what remains, and the sensor that is outside; by the option as by the study.
+#[test]
+fn a_later_log_is_scored() {
+    let study = "examples/05_identify/lathe-thermal.toml";
+    let day = "examples/05_identify/lathe-new-day.csv";
+    let ran = trueaxis(&["identify", "thermal", study, "--score", day, "--format", "json"]);
+    assert_eq!(ran.status, 1);
+    let later = &ran.json()["later"];
+    let log = &later["logs"][0];
+    assert_eq!(
+        (&later["verdict"], &log["pattern"]),
+        (&"worse than promised".into(), &"outside".into())
+    );
+    let um =
+        |value: &serde_json::Value| (value.as_f64().expect("a number") * 100.0).round() / 100.0;
+    assert_eq!(
+        [um(&later["promised_u_um"]), um(&log["left_um"]), um(&log["u_um"])],
+        [1.41, 5.31, 8.38]
+    );
+    let outside = log["sensors_outside"].as_array().expect("sensors");
+    assert!(outside.iter().any(|s| s["sensor"] == "coolant"));
+    let text = trueaxis(&["identify", "thermal", study, "--score", day]);
+    assert!(text.out.contains("WORSE THAN PROMISED"), "{}", text.out);
+    assert!(text.err.contains("warning[outside-pattern]"), "{}", text.err);
+    // Without later logs the answer says so; a log that the model comes from scores nothing.
+    assert!(
+        trueaxis(&["identify", "thermal", study, "--format", "json"]).json()["later"].is_null()
+    );
+    let own = "examples/05_identify/lathe-thermal/cycle-2.csv";
+    let ran = trueaxis(&["identify", "thermal", study, "--score", own]);
+    assert_eq!(ran.status, 2);
+    assert!(ran.err.contains("error[duplicate-cycle]"), "{}", ran.err);
+}

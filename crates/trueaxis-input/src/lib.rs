@@ -37,6 +37,7 @@
 mod csv;
 mod diagnostic;
 mod files;
+pub mod foreign;
 mod quantity;
 mod section;
 pub mod sheet;

@@ -9,5 +9,5 @@ mod readings;
 pub use instrument::Instrument;
 pub use kind::Kind;
 pub use material::MaterialCompensation;
-pub use motion::Motion;
+pub use motion::{Moment, Motion};
 pub use readings::{Reading, Readings};

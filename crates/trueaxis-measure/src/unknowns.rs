@@ -1,11 +1,14 @@
 //! The unknowns, how readings follow them, and which of them are separable.
 //!
 //! [`term`] describes an unknown, a [`design`] how readings follow it, a [`fit`] finds it, [`confusion`] says what
-//! cannot be separated, [`known`] what was known before.
+//! cannot be separated, [`determined`] what remains unknown of each, [`known`] what was known before.
 
 pub mod confusion;
 pub mod design;
+pub mod determined;
 pub mod fit;
 pub mod known;
 pub mod minimal;
+pub mod mixed;
 pub mod term;
+pub mod unlisted;

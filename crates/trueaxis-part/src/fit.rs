@@ -1,3 +1,3 @@
-//! Associated features: the ideal geometry that represents measured points.
+//! Associated features: the ideal geometry that represents measured points (crate `trueaxis-form`).
 
-pub mod circle;
+pub use trueaxis_form::circle;

@@ -1,5 +1,10 @@
 //! The conditions of the readings: a small TOML file next to the data.
 
+pub mod geometry;
+pub mod probing;
+
+use geometry::Geometry;
+use probing::ProbingTest;
 use std::path::Path;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, MeasuredValue, Section, SourceText};
@@ -36,6 +41,14 @@ pub struct Circle {
     pub centre_mm: Option<[f64; 2]>,
     /// Radius, mm.
     pub radius_mm: Option<f64>,
+    /// The two axes, where the columns do not name them: the angle counts from the first to the second.
+    pub plane: Option<[char; 2]>,
+    /// Standard uncertainty of the length of the instrument, if it is calibrated, mm.
+    pub length_u_mm: Option<f64>,
+    /// Pitch of the screws or scales of the two axes, for errors that repeat with it, mm.
+    pub pitch_mm: [Option<f64>; 2],
+    /// Feed along the circle, mm/s.
+    pub feed_mm_s: Option<f64>,
 }
 
 /// The conditions of the readings.
@@ -57,8 +70,14 @@ pub struct Conditions {
     pub instrument: Option<Instrument>,
     /// For circular tests.
     pub circle: Circle,
+    /// Where the other axes stood during a circular test: `Z=-200 C=90`.
+    pub circle_at: Option<String>,
     /// Edges of the volume whose diagonals were measured, mm.
     pub edges_mm: Option<Vec3>,
+    /// The geometric test (ISO 230-1).
+    pub test: Option<Geometry>,
+    /// The probing test (ISO 230-10).
+    pub probing: Option<ProbingTest>,
 }
 
 /// Reads a file of conditions; without one, or if it cannot be read, nothing is known.
@@ -93,6 +112,7 @@ fn read_root(root: &Section<'_>) -> Conditions {
         let message = format!("{} °C is not a possible temperature of a machine", value.value);
         item.error("temperature-range", message, &hint);
     }
+    let circle = root.section("circle", read_circle).unwrap_or_default();
     let edges = root.section("volume", |s| s.get("edges").and_then(|item| lengths::<3>(&item)));
     Conditions {
         name: text("name"),
@@ -102,14 +122,38 @@ fn read_root(root: &Section<'_>) -> Conditions {
         instrument_name: text("instrument"),
         temperature_c: measured,
         instrument: root.section("uncertainty", read_instrument),
-        circle: root
-            .section("circle", |s| Circle {
-                centre_mm: s.get("centre").and_then(|item| lengths::<2>(&item)),
-                radius_mm: s.get("radius").and_then(|item| positive(&item, Dimension::Length)),
-            })
-            .unwrap_or_default(),
+        circle: circle.0,
+        circle_at: circle.1,
+        test: root.section("test", geometry::read).flatten(),
+        probing: root.section("probing", probing::read),
         edges_mm: edges.flatten().map(|[x, y, z]| Vec3::new(x, y, z)),
     }
+}
+
+fn read_circle(s: &Section<'_>) -> (Circle, Option<String>) {
+    let plane = s.get("plane").and_then(|item| {
+        let found = match item.text()? {
+            "XY" => Some(['X', 'Y']),
+            "YZ" => Some(['Y', 'Z']),
+            "ZX" => Some(['Z', 'X']),
+            _ => None,
+        };
+        if found.is_none() {
+            let message = "no such plane".to_owned();
+            item.error("bad-plane", message, "\"XY\", \"YZ\" or \"ZX\"; or columns x_mm, z_mm …");
+        }
+        found
+    });
+    let pitch = |key: &str| s.get(key).and_then(|item| positive(&item, Dimension::Length));
+    let circle = Circle {
+        centre_mm: s.get("centre").and_then(|item| lengths::<2>(&item)),
+        radius_mm: s.get("radius").and_then(|item| positive(&item, Dimension::Length)),
+        plane,
+        length_u_mm: s.get("length_u").and_then(|item| positive(&item, Dimension::Length)),
+        pitch_mm: [pitch("pitch_first"), pitch("pitch_second")],
+        feed_mm_s: s.get("feed").and_then(|item| positive(&item, Dimension::Velocity)),
+    };
+    (circle, s.text("at").map(str::to_owned))
 }
 
 fn read_instrument(section: &Section<'_>) -> Instrument {

@@ -5,11 +5,13 @@
 
 mod ecmc;
 mod qif;
+mod rtl;
 
 use crate::conditions::{Circle, Conditions};
 use crate::{Evaluated, Standard};
 use std::borrow::Cow;
 use std::path::Path;
+use trueaxis_input::foreign::{self, Beside, Mapping};
 use trueaxis_input::{Diagnostics, Place};
 
 /// A form of readings.
@@ -21,11 +23,13 @@ pub enum Import {
     Qif,
     /// The Markdown report of the ECMC motion test scripts (positions by target, run and direction).
     EcmcMarkdown,
+    /// A laser file of Renishaw.
+    RenishawRtl,
 }
 
 impl Import {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Csv, Self::Qif, Self::EcmcMarkdown];
+    pub const ALL: [Self; 4] = [Self::Csv, Self::Qif, Self::EcmcMarkdown, Self::RenishawRtl];
 
     /// The name on the command line.
     pub fn key(self) -> &'static str {
@@ -33,15 +37,19 @@ impl Import {
             Self::Csv => "csv",
             Self::Qif => "qif",
             Self::EcmcMarkdown => "ecmc-md",
+            Self::RenishawRtl => "rtl",
         }
     }
 
     /// Its name in text output.
     pub fn title(self) -> &'static str {
         match self {
-            Self::Csv => "a table with one line of headings, each with its unit",
+            Self::Csv => {
+                "a table with headings in one of five languages, or read by a mapping file"
+            }
             Self::Qif => "QIF 3 (ISO 23952), points measured on features",
             Self::EcmcMarkdown => "Markdown report of the ECMC motion test",
+            Self::RenishawRtl => "Renishaw laser file (.rtl, .rta)",
         }
     }
 
@@ -51,32 +59,70 @@ impl Import {
         match &*ending {
             "qif" | "xml" => Self::Qif,
             "md" => Self::EcmcMarkdown,
+            "rtl" | "rta" => Self::RenishawRtl,
             _ => Self::Csv,
         }
     }
 
-    /// Reads a text; `feature` chooses one of several where the form has them. `None` with errors in
-    /// `problems`.
-    pub fn read<'t>(
-        self,
-        standard: Standard,
-        file: &str,
-        text: &'t str,
-        feature: Option<&str>,
-        problems: &mut Diagnostics,
-    ) -> Option<Imported<'t>> {
+    /// Reads a text. `None` with errors in `problems`.
+    pub fn read<'t>(self, source: &From<'t>, problems: &mut Diagnostics) -> Option<Imported<'t>> {
+        let From { standard, file, text, feature, mapping } = *source;
         let imported = match self {
-            Self::Csv => Some(Imported { table: Cow::Borrowed(text), ..Imported::default() }),
+            Self::Csv => table(file, text, mapping, problems),
             Self::Qif => qif::read(standard, file, text, feature, problems),
             Self::EcmcMarkdown => ecmc::read(standard, file, text, problems),
+            Self::RenishawRtl => rtl::read(standard, file, text, problems),
+        };
+        let mut idle = |argument: &str, hint: &str| {
+            let message = format!("`{argument}` does not apply to {}", self.title());
+            problems.warn("unused-argument", Place::whole(argument), message, hint);
         };
         if feature.is_some() && self != Self::Qif {
-            let message = format!("`--feature` does not apply to {}", self.title());
-            let hint = "only QIF files have features; leave it out";
-            problems.warn("unused-argument", Place::whole("--feature"), message, hint);
+            idle("--feature", "only QIF files have features; leave it out");
+        }
+        if mapping.is_some() && self != Self::Csv {
+            idle("--map", "only tables have columns; leave it out, or --import csv");
         }
         imported
     }
+}
+
+/// A text to be read.
+#[derive(Debug, Clone, Copy)]
+pub struct From<'a> {
+    /// For which standard.
+    pub standard: Standard,
+    /// The file, as the user named it.
+    pub file: &'a str,
+    /// Its text.
+    pub text: &'a str,
+    /// Which of several features of a form that has them.
+    pub feature: Option<&'a str>,
+    /// Which column is what, where the headings do not say it.
+    pub mapping: Option<&'a Mapping>,
+}
+
+/// A table: our own form as it is, any other by its mapping file or its headings.
+fn table<'t>(
+    file: &str,
+    text: &'t str,
+    mapping: Option<&Mapping>,
+    problems: &mut Diagnostics,
+) -> Option<Imported<'t>> {
+    let table = match mapping {
+        Some(mapping) => Cow::Owned(mapping.read(file, text, problems)?),
+        None if foreign::is_ours(text) => Cow::Borrowed(text),
+        None => Cow::Owned(foreign::read(file, text, problems)?),
+    };
+    Some(Imported { table, ..Imported::default() })
+}
+
+/// What the source says of its readings.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+struct About {
+    machine: Option<String>,
+    axis: Option<String>,
+    date: Option<String>,
 }
 
 /// A figure that the source prints of itself.
@@ -94,6 +140,7 @@ struct Printed {
 pub struct Imported<'t> {
     table: Cow<'t, str>,
     circle: Circle,
+    about: About,
     printed: Vec<Printed>,
     /// Touched on a part: no machine has moved along these points.
     of_a_part: bool,
@@ -110,8 +157,16 @@ impl Imported<'_> {
         let circle = Circle {
             centre_mm: stated.circle.centre_mm.or(self.circle.centre_mm),
             radius_mm: stated.circle.radius_mm.or(self.circle.radius_mm),
+            ..stated.circle
         };
-        Conditions { circle, ..stated.clone() }
+        let or = |stated: &Option<String>, found: &Option<String>| stated.clone().or(found.clone());
+        Conditions {
+            circle,
+            machine: or(&stated.machine, &self.about.machine),
+            axis: or(&stated.axis, &self.about.axis),
+            date: or(&stated.date, &self.about.date),
+            ..stated.clone()
+        }
     }
 
     /// Removes from the result what such readings cannot determine, and reports which printed results of the
@@ -119,6 +174,7 @@ impl Imported<'_> {
     pub fn finish(&self, evaluated: &mut Evaluated, file: &str, problems: &mut Diagnostics) {
         if let (Evaluated::Circular(circle), true) = (&mut *evaluated, self.of_a_part) {
             circle.causes = None;
+            circle.diagnosis = None;
         }
         let Evaluated::Positioning(_, ours) = evaluated else { return };
         let mut agree = 0;
@@ -152,23 +208,3 @@ impl Imported<'_> {
 
 /// Printed parameters are rounded, mm.
 const PRINTED_MM: f64 = 2e-5;
-
-/// A table that is written line by line with its source.
-#[derive(Debug, Default)]
-struct Beside {
-    text: String,
-    lines: usize,
-}
-
-impl Beside {
-    /// Puts a row on a line of the source, or on the next that is free.
-    fn row(&mut self, line: usize, row: &str) {
-        while self.lines + 1 < line {
-            self.text.push('\n');
-            self.lines += 1;
-        }
-        self.text += row;
-        self.text.push('\n');
-        self.lines += 1;
-    }
-}

@@ -12,7 +12,7 @@
 //!     format!("{},{},ccw\n", 100.002 * a.cos(), 100.002 * a.sin())
 //! }).collect();
 //! let mut problems = Diagnostics::new();
-//! let nominal = Circle { centre_mm: None, radius_mm: Some(100.0) };
+//! let nominal = Circle { radius_mm: Some(100.0), ..Circle::default() };
 //! let text = format!("x_mm,y_mm,direction\n{rows}");
 //! let result = iso230_4::evaluate("c.csv", &text, nominal, &mut problems).unwrap();
 //! assert!((result.paths[0].mean_radial_mm.unwrap() - 0.002).abs() < 1e-9);
@@ -20,14 +20,16 @@
 //! ```
 
 mod causes;
+mod diagnosis;
 mod points;
 
 pub use causes::{Causes, Spike};
+pub use diagnosis::{Cause, Diagnosis, Found, diagnose};
 pub use points::{Path, Sense};
 
 use crate::conditions::Circle;
+use trueaxis_form::circle::{Zone, least_squares};
 use trueaxis_input::Diagnostics;
-use trueaxis_part::fit::circle::{Zone, least_squares};
 
 /// No machine deviates so far from its radius.
 const WRONG_RADIUS: f64 = 0.02;
@@ -66,6 +68,8 @@ pub struct Circular {
     pub d_mm: Option<f64>,
     /// The causes of the deviations.
     pub causes: Option<Causes>,
+    /// All causes with uncertainties and shares, from both directions.
+    pub diagnosis: Option<Diagnosis>,
 }
 
 /// Reads and evaluates the points of a circular test; `None` with errors in `problems`.
@@ -128,7 +132,18 @@ pub fn evaluate(
     let d_mm = both.and_then(|(a, b)| Some(0.5 * (a.mean_radial_mm? + b.mean_radial_mm?)));
     let causes = causes::separate(&paths, centre_mm, points.radius_mm);
     let (axes, radius_mm) = (points.axes, points.radius_mm);
-    Some(Circular { axes, centre_mm, radius_mm, paths, g_both_mm, f_both_mm, d_mm, causes })
+    let diagnosis = None;
+    Some(Circular {
+        axes,
+        centre_mm,
+        radius_mm,
+        paths,
+        g_both_mm,
+        f_both_mm,
+        d_mm,
+        causes,
+        diagnosis,
+    })
 }
 
 fn result(path: Path, circle: Zone, centre_mm: [f64; 2], radius: Option<f64>) -> PathResult {
@@ -155,7 +170,7 @@ mod tests {
                 text += &format!("{},{},{word}\n", r * a.cos(), r * a.sin());
             }
         }
-        let nominal = Circle { centre_mm: None, radius_mm: Some(100.0) };
+        let nominal = Circle { radius_mm: Some(100.0), ..Circle::default() };
         let mut problems = Diagnostics::new();
         let result = evaluate("c.csv", &text, nominal, &mut problems).unwrap();
         assert!(!problems.has_errors());

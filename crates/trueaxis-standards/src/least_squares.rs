@@ -26,6 +26,21 @@ impl<const N: usize> LeastSquares<N> {
         self.rows += 1;
     }
 
+    /// The variance of every unknown for rows of variance 1; 0 for unknowns that occur in no row.
+    pub fn variances(&self) -> Option<[f64; N]> {
+        let mut variances = [0.0; N];
+        for (i, variance) in variances.iter_mut().enumerate() {
+            if self.normal[i][i] == 0.0 {
+                continue;
+            }
+            let mut unit = self.clone();
+            unit.right = [0.0; N];
+            unit.right[i] = 1.0;
+            *variance = unit.solve()?[i].max(0.0);
+        }
+        Some(variances)
+    }
+
     /// The solution; unknowns that occur in no row are 0. `None` if others cannot be separated.
     pub fn solve(&self) -> Option<[f64; N]> {
         let (mut a, mut b) = (self.normal, self.right);
@@ -72,6 +87,9 @@ mod tests {
         // Slope (5 − 0)/2, mean 2 at x = 1.
         let [offset, slope] = fit.solve().unwrap();
         assert!((slope - 2.5).abs() < 1e-12 && (offset + 0.5).abs() < 1e-12);
+        // 1/Σ(x − x̄)² = 1/2; 1/3 + x̄²/2 = 5/6
+        let [of_offset, of_slope] = fit.variances().unwrap();
+        assert!((of_slope - 0.5).abs() < 1e-12 && (of_offset - 5.0 / 6.0).abs() < 1e-12);
         let mut same = LeastSquares::<2>::default();
         same.add(&[1.0, 1.0], 1.0);
         assert_eq!(same.solve(), None);

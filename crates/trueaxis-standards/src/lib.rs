@@ -1,10 +1,13 @@
 //! Evaluation of readings of instruments by ISO 230 and related standards, each result with its clause;
 //! docs/model.md eq. 60 on.
 //!
+//! - [`iso230_1`]: straightness, flatness, squareness and parallelism;
 //! - [`iso230_2`]: positioning of linear and rotary axes (also GB/T 17421.2, VDI/DGQ 3441 and the form
 //!   of ASME B5.54);
 //! - [`iso230_3`]: drift; [`iso230_4`]: circular tests; [`iso230_6`]: diagonals; [`iso230_7`]: error
 //!   motion of rotary axes;
+//! - [`iso230_10`]: touch probes;
+//! - [`form`]: elements through points, their form deviation (ISO 1101, ISO 12181, ISO 12780);
 //! - [`import`]: files of other programs are converted to tables; [`report`]: an evaluation as text, JSON and a page.
 //!
 //! ```
@@ -36,34 +39,46 @@
 //! machine file.
 
 pub mod conditions;
+pub mod coverage;
+pub mod form;
 pub mod import;
+pub mod iso230_1;
+pub mod iso230_10;
 pub mod iso230_2;
 pub mod iso230_3;
 pub mod iso230_4;
 pub mod iso230_6;
 pub mod iso230_7;
+pub mod judge;
 mod least_squares;
 pub mod report;
 
 use conditions::{Conditions, unsound_temperature};
-use import::Import;
+use import::{From, Import};
+use iso230_1::Geometric;
 use iso230_2::{Budget, Measurement, Positioning};
 use iso230_3::Drift;
 use iso230_4::Circular;
 use iso230_6::Diagonals;
 use iso230_7::Rotation;
+use iso230_10::Probing;
+use judge::Decision;
+use trueaxis_input::foreign::Mapping;
 use trueaxis_input::sheet::{self, Cells, Sheet};
 use trueaxis_input::{Diagnostics, Dimension, Place, Unit};
 use trueaxis_report::{NamedSchema, named_schema};
 
-/// The JSON Schemas of the documents of this crate, by name.
+/// The JSON Schemas of the documents of this crate, by name; `evaluate`, which has the errors of a machine file as
+/// well, is one of `trueaxis-condition`.
 pub fn schemas() -> Vec<NamedSchema> {
-    vec![named_schema::<report::EvaluationDocument<'_>>("evaluate")]
+    vec![named_schema::<report::FormDocument<'_>>("evaluate-form")]
 }
 
 /// A standard that readings can be evaluated by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Standard {
+    /// Straightness, flatness, squareness and parallelism.
+    Iso230_1,
     /// Positioning of one axis.
     Iso230_2,
     /// The same in China.
@@ -80,11 +95,14 @@ pub enum Standard {
     Iso230_6,
     /// Error motion of rotary axes.
     Iso230_7,
+    /// Probing performance.
+    Iso230_10,
 }
 
 impl Standard {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 10] = [
+        Self::Iso230_1,
         Self::Iso230_2,
         Self::Gbt17421_2,
         Self::Vdi3441,
@@ -93,11 +111,13 @@ impl Standard {
         Self::Iso230_4,
         Self::Iso230_6,
         Self::Iso230_7,
+        Self::Iso230_10,
     ];
 
     /// The name on the command line and in JSON.
     pub fn key(self) -> &'static str {
         match self {
+            Self::Iso230_1 => "iso230-1",
             Self::Iso230_2 => "iso230-2",
             Self::Gbt17421_2 => "gbt17421-2",
             Self::Vdi3441 => "vdi3441",
@@ -106,12 +126,14 @@ impl Standard {
             Self::Iso230_4 => "iso230-4",
             Self::Iso230_6 => "iso230-6",
             Self::Iso230_7 => "iso230-7",
+            Self::Iso230_10 => "iso230-10",
         }
     }
 
     /// The name in text output.
     pub fn title(self) -> &'static str {
         match self {
+            Self::Iso230_1 => "ISO 230-1, straightness, flatness, squareness, parallelism",
             Self::Iso230_2 => "ISO 230-2:2014, positioning",
             Self::Gbt17421_2 => "GB/T 17421.2 (the parameters of ISO 230-2:2014), positioning",
             Self::Vdi3441 => "VDI/DGQ 3441, positioning",
@@ -120,6 +142,7 @@ impl Standard {
             Self::Iso230_4 => "ISO 230-4, circular test",
             Self::Iso230_6 => "ISO 230-6, diagonals",
             Self::Iso230_7 => "ISO 230-7, error motion of a rotary axis",
+            Self::Iso230_10 => "after ISO 230-10, probing performance",
         }
     }
 }
@@ -146,6 +169,8 @@ pub struct Request<'a> {
 pub enum Evaluated {
     /// ISO 230-2 and its relatives: the readings and the parameters.
     Positioning(Measurement, Box<Positioning>),
+    /// ISO 230-1.
+    Geometric(Box<Geometric>),
     /// ISO 230-3.
     Drift(Drift),
     /// ISO 230-4.
@@ -154,6 +179,19 @@ pub enum Evaluated {
     Diagonals(Diagonals),
     /// ISO 230-7.
     Rotation(Rotation),
+    /// ISO 230-10.
+    Probing(Probing),
+}
+
+impl Evaluated {
+    /// Whether it is within its tolerance, where the test has one.
+    pub fn is_yes(&self) -> bool {
+        match self {
+            Self::Geometric(test) => test.outcome.is_none_or(|o| o == Decision::Conforming),
+            Self::Probing(test) => test.is_yes(),
+            _ => true,
+        }
+    }
 }
 
 /// Evaluates readings by a standard; `None` with errors in `problems`.
@@ -169,15 +207,24 @@ pub fn evaluate(request: &Request<'_>, problems: &mut Diagnostics) -> Option<Eva
             let result = iso230_2::evaluate(&measurement, budget);
             Some(Evaluated::Positioning(measurement, Box::new(result)))
         }
+        Standard::Iso230_1 => {
+            let test = iso230_1::evaluate(file, text, conditions, problems)?;
+            Some(Evaluated::Geometric(Box::new(test)))
+        }
         Standard::Iso230_3 => {
             iso230_3::evaluate(file, text, request.window_s, problems).map(Evaluated::Drift)
         }
         Standard::Iso230_6 => {
             iso230_6::evaluate(file, text, conditions, problems).map(Evaluated::Diagonals)
         }
+        Standard::Iso230_10 => {
+            iso230_10::evaluate(file, text, conditions, problems).map(Evaluated::Probing)
+        }
         Standard::Iso230_7 => iso230_7::evaluate(file, text, problems).map(Evaluated::Rotation),
         Standard::Iso230_4 => {
-            let circle = iso230_4::evaluate(file, text, conditions.circle, problems)?;
+            let mut circle = iso230_4::evaluate(file, text, conditions.circle, problems)?;
+            let place = Place::whole(request.conditions_file);
+            circle.diagnosis = iso230_4::diagnose(&circle, conditions, &place, problems);
             Some(Evaluated::Circular(Box::new(circle)))
         }
     }
@@ -196,6 +243,8 @@ pub struct Readings<'a> {
     pub import: Import,
     /// Which feature of a form that holds several.
     pub feature: Option<&'a str>,
+    /// Which column is what, where the headings do not say it.
+    pub mapping: Option<&'a Mapping>,
     /// The conditions of the readings.
     pub conditions: &'a Conditions,
     /// The file that states them.
@@ -210,8 +259,9 @@ pub fn evaluate_text(
     readings: &Readings<'_>,
     problems: &mut Diagnostics,
 ) -> (Option<Evaluated>, Conditions) {
-    let Readings { standard, file, text, conditions, conditions_file, window_s, .. } = *readings;
-    let read = readings.import.read(standard, file, text, readings.feature, problems);
+    let Readings { standard, file, text, feature, mapping, conditions, .. } = *readings;
+    let Readings { conditions_file, window_s, .. } = *readings;
+    let read = readings.import.read(&From { standard, file, text, feature, mapping }, problems);
     let Some(read) = read else { return (None, conditions.clone()) };
     let conditions = read.conditions(conditions);
     let text = read.table();

@@ -14,19 +14,23 @@
 //!     Design, cycles but one ──best_subsets──> terms       for each number of terms, by least squares
 //!     the cycle left out ──> its score                     the search is repeated without each cycle
 //!     scores ──one standard error──> number of terms       or none: refusal
+//!     later logs ──score_thermal──> what was promised, what remains, what the sensors did not do before
 //! ```
 
 mod check;
 mod design;
+mod score;
 mod study;
 mod subsets;
 
 pub use design::lagged;
-pub use study::{Tables, parse_logs, read_logs};
+pub use score::{Combination, ScoredLog, Scoring, SensorOutside, score_thermal};
+pub use study::{Later, Tables, parse_logs, read_logs, read_logs_and};
 
 use design::{Design, Fit};
 use nalgebra::DMatrix;
 use subsets::best_subsets;
+use trueaxis_geometry::statistics::coverage_factor;
 
 /// Fewer cycles say nothing about a cycle that comes next.
 pub const FEWEST_CYCLES: usize = 3;
@@ -81,6 +85,8 @@ pub struct Logs {
     pub sensors: Vec<String>,
     /// The cycles.
     pub cycles: Vec<Cycle>,
+    /// Logs that came later: the model has not seen them and is scored with them.
+    pub later: Vec<Cycle>,
     /// What is free in every cycle.
     pub zero: Zero,
     /// Candidate time constants of first-order lags, s.
@@ -383,7 +389,7 @@ fn refusal(logs: &Logs, model: &ThermalModel) -> Option<String> {
         .collect();
     let mean = ratios.iter().sum::<f64>() / cycles as f64;
     let scatter = ratios.iter().map(|r| (r - mean).powi(2)).sum::<f64>() / (cycles - 1) as f64;
-    let doubt = coverage(cycles - 1) * (scatter / cycles as f64).sqrt();
+    let doubt = coverage_factor((cycles - 1) as f64) * (scatter / cycles as f64).sqrt();
     (mean + doubt >= 0.0).then(|| {
         format!(
             "what the model leaves of the mean square drift of a cycle that it has not seen is {:.0} %, \
@@ -392,19 +398,6 @@ fn refusal(logs: &Logs, model: &ThermalModel) -> Option<String> {
             (mean + doubt).exp() * 100.0
         )
     })
-}
-
-/// The factor that covers 95.45 %, by Student's t.
-///
-/// # Source
-/// GUM, table G.2; beyond ten degrees of freedom 2 + 2.8/ν, within 0.01 of it.
-fn coverage(freedom: usize) -> f64 {
-    const TABLE: [f64; 10] = [13.97, 4.53, 3.31, 2.87, 2.65, 2.52, 2.43, 2.37, 2.32, 2.28];
-    match freedom {
-        0 => f64::INFINITY,
-        1..=10 => TABLE[freedom - 1],
-        _ => 2.0 + 2.8 / freedom as f64,
-    }
 }
 
 fn warnings(logs: &Logs, design: &Design, model: &ThermalModel) -> Vec<String> {
@@ -426,7 +419,7 @@ fn warnings(logs: &Logs, design: &Design, model: &ThermalModel) -> Vec<String> {
             logs.cycles.len()
         ));
     }
-    let sure = coverage(logs.cycles.len() - 1);
+    let sure = coverage_factor((logs.cycles.len() - 1) as f64);
     for c in model.coefficients.iter().filter(|c| c.mm_per_k.abs() < sure * c.u_mm_per_k) {
         let name = c.term.name(logs);
         warnings.push(format!("the coefficient of `{name}` is hardly surer than its sign"));

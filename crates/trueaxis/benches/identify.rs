@@ -63,6 +63,8 @@ fn design() -> Design {
         noise: [1e-3; 3],
         unknowns: unknowns.into_iter().map(free).collect(),
         material: None,
+        reads: Default::default(),
+        assumed: Default::default(),
     };
     let design = Design::new(&machine, terms, vec![instrument]);
     assert_eq!(design.unknowns(), 43);

@@ -66,6 +66,17 @@ pub fn is_file(path: &Path) -> bool {
     readable(path).is_ok_and(|path| path.is_file())
 }
 
+/// The files with these endings in a folder, by name; anything else as it is named.
+pub fn in_folder(path: &Path, endings: &[&str]) -> Vec<PathBuf> {
+    let Ok(entries) = readable(path).and_then(fs::read_dir) else {
+        return vec![path.to_owned()];
+    };
+    let is_one = |p: &PathBuf| p.extension().is_some_and(|e| endings.iter().any(|x| e == *x));
+    let mut found: Vec<PathBuf> = entries.flatten().map(|e| e.path()).filter(is_one).collect();
+    found.sort();
+    found
+}
+
 /// Writes a file whole or not at all: into a temporary file in the same folder, then renamed.
 ///
 /// # Errors

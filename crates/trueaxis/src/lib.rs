@@ -42,6 +42,7 @@ pub use schemas::schemas;
 pub use trueaxis_calibrate::plan;
 pub use trueaxis_cl as cl;
 pub use trueaxis_correct::compensate;
+pub use trueaxis_form as form;
 pub use trueaxis_geometry as geometry;
 pub use trueaxis_input as input;
 pub use trueaxis_machine as machine;
@@ -59,6 +60,7 @@ pub use trueaxis_report::{NamedSchema, VERSION};
 /// What is the machine like: errors from readings, and how they follow temperatures.
 pub mod identify {
     pub use trueaxis_calibrate::identify::*;
+    pub use trueaxis_rtcp::rtcp;
     pub use trueaxis_thermal::{expansion, thermal};
 }
 

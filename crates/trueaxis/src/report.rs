@@ -67,5 +67,6 @@ pub use trueaxis_report::{
     Band, DrawingError, Keyed, Picture, Polar, PolarLine, Scatter, Table, document, named_schema,
     numbers,
 };
+pub use trueaxis_rtcp::report::*;
 pub use trueaxis_standards::report::*;
 pub use trueaxis_thermal::report::*;

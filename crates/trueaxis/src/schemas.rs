@@ -47,10 +47,12 @@ pub fn schemas() -> Vec<NamedSchema> {
     ];
     all.extend(trueaxis_measure::schemas());
     all.extend(trueaxis_calibrate::schemas());
+    all.extend(trueaxis_rtcp::schemas());
     all.extend(trueaxis_thermal::schemas());
     all.extend(trueaxis_predict::schemas());
     all.extend(trueaxis_correct::schemas());
     all.extend(trueaxis_motion::schemas());
+    all.extend(trueaxis_condition::schemas());
     all.extend(trueaxis_standards::schemas());
     all.iter_mut().for_each(|(_, schema)| add_diagnostics(schema));
     all.push(named_schema::<DiagnosticEntry<'_>>("diagnostic"));

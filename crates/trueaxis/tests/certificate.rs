@@ -79,6 +79,8 @@ fn tracker(machine: &Machine, below_mm: f64) -> Instrument {
         noise: [NOISE_MM; 3],
         unknowns: kind.usual_unknowns().into_iter().map(free).collect(),
         material: None,
+        reads: Default::default(),
+        assumed: Default::default(),
     }
 }
 
@@ -315,7 +317,7 @@ fn part(study: &Study, real: &Machine, known: Option<&Machine>) -> Vec<f64> {
 fn drawn(trial: &Trial, machine: &Machine, random: &mut Random) -> Machine {
     let (terms, fit) = (&trial.found.design.terms, &trial.found.fit);
     let n = terms.len();
-    let covariance = fit.covariance.view((0, 0), (n, n)) * trial.found.birge.powi(2);
+    let covariance = fit.covariance.view((0, 0), (n, n));
     let z = DVector::from_fn(n, |_, _| random.normal());
     // Another root than that of the product, of the covariance scaled to correlations.
     let u = covariance.diagonal().map(f64::sqrt);

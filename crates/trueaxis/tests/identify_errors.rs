@@ -39,6 +39,8 @@ fn probe(machine: &Machine, kind: Kind) -> Instrument {
         noise: [1e-3; 3],
         unknowns: kind.usual_unknowns().into_iter().map(free).collect(),
         material: None,
+        reads: Default::default(),
+        assumed: Default::default(),
     }
 }
 
@@ -304,19 +306,28 @@ fn law_five_wild_readings_in_a_hundred_do_not_move_a_robust_fit() {
     for i in &wild {
         readings.values[*i][1] += 0.2;
     }
-    let off = |found: &Identification| {
-        let known = (0..design.unknowns()).filter_map(|k| Some((k, found.found[k].value?)));
-        known.map(|(k, (v, u))| ((v - values[k]) / u).powi(2)).sum::<f64>().sqrt()
-    };
     let robust = Options { loss: Loss::Huber, ..Options::default() };
     let (found, codes) = run(&campaign, &robust, readings.clone());
     let found = found.unwrap_or_else(|| panic!("{codes:?}"));
+    let plain = fit(&design, &readings, &[]).expect("a fit");
     let (squares, _) = run(&campaign, &Options::default(), readings);
     let squares = squares.expect("an answer");
-    // By the spread that a clean campaign would have: u without Birge's ratio.
-    let clean = |f: &Identification| off(f) * f.birge;
-    assert!(clean(&found) < 0.35 * clean(&squares), "{} {}", clean(&found), clean(&squares));
-    // They are named, all of them and nothing else, and they still count.
+    // By the spread that a clean campaign would have.
+    let clean = |values_found: &dyn Fn(usize) -> Option<f64>| {
+        let u = |k: usize| plain.covariance[(k, k)].sqrt();
+        let known = (0..design.unknowns()).filter_map(|k| Some((k, values_found(k)?)));
+        known.map(|(k, v)| ((v - values[k]) / u(k)).powi(2)).sum::<f64>().sqrt()
+    };
+    let bent = clean(&|k| squares.found[k].value.map(|_| plain.values[k]));
+    for one in [&found, &squares] {
+        let here = clean(&|k| one.found[k].value.map(|(v, _)| v));
+        assert!(here < 0.35 * bent, "{here} {bent}");
+    }
+    // By squares they are left out, and nothing else is.
+    let left_out: Vec<usize> = (0..200).filter(|i| squares.weights.get(*i) == Some(&0.0)).collect();
+    assert_eq!(left_out, wild);
+    assert_eq!(squares.verdict, Verdict::GrossReadings(10));
+    // By Huber they are named, all of them and nothing else, and they still count.
     let mut named: Vec<usize> = found.influences.outliers.iter().map(|o| o.row).collect();
     named.sort_unstable();
     named.dedup();
@@ -424,7 +435,7 @@ fn law_what_is_left_is_told_by_what_it_follows() {
         let reported = match &found.verdict {
             Verdict::FollowsPlaces(_) => "xyz".to_owned(),
             Verdict::TurnsWith(axis, _) => axis.clone(),
-            other => format!("{other:?} {:?} {:?}", found.score, found.fields),
+            other => format!("{other:?} {:?} {:?}", found.score, found.adequacy.kinds),
         };
         assert_eq!(reported, expected, "{error}");
     }

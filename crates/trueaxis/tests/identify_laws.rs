@@ -36,6 +36,8 @@ fn instrument(kind: Kind, machine: &Machine) -> Instrument {
         noise: [1e-3; 3],
         unknowns: kind.usual_unknowns().into_iter().map(free).collect(),
         material: None,
+        reads: Default::default(),
+        assumed: Default::default(),
     }
 }
 

@@ -182,11 +182,12 @@ fn reports_are_whole_and_have_numbers() {
             logs.error = "<script>".to_owned();
         }
         let model = identify_thermal(&logs);
-        let page = thermal_report(&logs, &model).html().expect("a page");
+        let page = thermal_report(&logs, &model, None).html().expect("a page");
         assert!(page.ends_with("</html>") && !page.contains("<script") && !page.contains("NaN"));
-        let text = thermal_report(&logs, &model).text();
+        let text = thermal_report(&logs, &model, None).text();
         assert!(!text.split_whitespace().any(|w| ["NaN", "inf", "-inf"].contains(&w)), "{text}");
-        let document = document(&ThermalDocument::of(&logs, &model, &thermal_lines(&logs, &model)));
+        let document =
+            document(&ThermalDocument::of(&logs, &model, &thermal_lines(&logs, &model), None));
         assert_eq!(document["schema"], "trueaxis/identify/1");
         assert_eq!(document["coefficients"].as_array().map(Vec::len), Some(model.chosen));
         assert_eq!(document["machine_file"].is_null(), refused);

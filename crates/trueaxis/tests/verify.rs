@@ -48,11 +48,13 @@ fn document(standard: Standard, evaluated: &Evaluated, conditions: &Conditions) 
         conditions,
         evaluated,
         remarks: &[],
+        judged: &[],
     }))
 }
 
 fn page(standard: Standard, evaluated: &Evaluated, conditions: &Conditions) {
-    let e = Evaluation { standard, file: "t.csv", conditions, evaluated, remarks: &[] };
+    let e =
+        Evaluation { standard, file: "t.csv", conditions, evaluated, remarks: &[], judged: &[] };
     assert!(evaluation_report(&e).html().expect("a page").ends_with("</html>"));
     let text = evaluation_report(&e).text();
     let unsound = text.split_whitespace().find(|w| ["NaN", "inf", "-inf"].contains(w));

@@ -45,6 +45,8 @@ fn instrument(kind: Kind, machine: &Machine) -> Instrument {
         noise: [1e-3; 3],
         unknowns: Vec::new(),
         material: None,
+        reads: Default::default(),
+        assumed: Default::default(),
     }
 }
 

@@ -7,16 +7,19 @@ use trueaxis_geometry::statistics::robust_deviation;
 use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::axis::AxisKind;
 use trueaxis_machine::errors::{Component, ErrorIndex, ErrorKind, ErrorValues};
+use trueaxis_measure::instruments::Kind;
 use trueaxis_measure::instruments::instrument::Sight;
 use trueaxis_measure::measure::Readings;
 use trueaxis_measure::unknowns::design::Design;
-use trueaxis_measure::unknowns::fit::Observability;
+use trueaxis_measure::unknowns::fit::{FitError, Observability};
 use trueaxis_measure::unknowns::term::Basis;
 
 /// An axis of rotation that passes so near to the ball says nothing by turning, mm.
 const ON_AXIS_MM: f64 = 0.5;
 /// Readings further from the nominal one than this, and than twenty times what is usual, are reported.
 const FAR_MM: f64 = 0.5;
+/// A probe-ball reads no more than a few tenths of a millimetre, mm.
+const PROBE_RANGE_MM: f64 = 2.0;
 /// Powers of three and more are reported where less than this share of their range was measured.
 const LEAST_RANGE: f64 = 0.4;
 /// Rows that are reported one by one.
@@ -157,7 +160,15 @@ fn check_size(design: &Design, records: &Records, problems: &mut Diagnostics) {
                     false => (off, "mm"),
                 };
                 let message = format!("reads {size:.3} {unit} off, far more than the others");
-                let hint = "a lost row, a slip, a wrong pose? it still counts; delete it if wrong";
+                if instrument.kind == Kind::ProbeBall && off > PROBE_RANGE_MM {
+                    let message =
+                        format!("the pose is {off:.2} mm off the ball, which no probe-ball reads");
+                    let hint =
+                        "a wrong pose or a wrong row: the socket stays on the ball in every pose";
+                    problems.error("pose-off-ball", records.place(*i), message, hint);
+                    continue;
+                }
+                let hint = "a lost row, a slip, a wrong pose? correct it or delete it";
                 problems.warn("far-off", records.place(*i), message, hint);
             }
         }
@@ -239,4 +250,20 @@ fn check_balls_on_axes(
 fn turning(direction: Vec3) -> Option<Component> {
     let along = (0..3).find(|i| direction[*i].abs() > 1.0 - 1e-9)?;
     Some([Component::A, Component::B, Component::C][along])
+}
+
+/// Why a fit failed, with its row.
+pub(super) fn tell_fault(
+    fault: &FitError,
+    records: &Records,
+    place: &Place,
+    problems: &mut Diagnostics,
+) {
+    let (place, hint) = match fault {
+        FitError::Outside { row, .. } => {
+            (records.place(*row), "correct the pose, or extend the table of the machine file")
+        }
+        _ => (place.clone(), "trueaxis identify --check-conventions tries signs, orders and sides"),
+    };
+    problems.error("no-fit", place, fault.to_string(), hint);
 }

@@ -6,7 +6,7 @@
 
 use super::selection::Sums;
 use nalgebra::DVector;
-use trueaxis_geometry::statistics::{chi_square_above, normal_tail};
+use trueaxis_geometry::statistics::{self, chi_square_above};
 use trueaxis_input::{Diagnostics, Place};
 use trueaxis_measure::measure::Readings;
 use trueaxis_measure::unknowns::design::Design;
@@ -15,37 +15,9 @@ use trueaxis_measure::unknowns::fit::Observability;
 /// One in a thousand by chance.
 const TAIL: f64 = 1e-3;
 
-/// The probability that χ² with whole degrees of freedom is larger (Abramowitz and Stegun 26.4.4, 26.4.5).
-///
-/// ```text
-///     even:  e^{−x/2} Σ (x/2)^i / i!, i < n/2      odd:  2 Q(√x) + 2 φ(√x) Σ x^{i−½} / (1·3 … (2i − 1)), i ≤ (n − 1)/2
-/// ```
+/// The probability that χ² with these degrees of freedom is larger.
 pub fn chi_square_tail(x: f64, degrees_of_freedom: usize) -> f64 {
-    let half = degrees_of_freedom / 2;
-    if x <= 0.0 || degrees_of_freedom == 0 {
-        return 1.0;
-    }
-    // By logarithms, so that neither the power nor the exponential runs out of range.
-    let tail: f64 = match degrees_of_freedom % 2 {
-        0 => {
-            let mut log = -0.5 * x;
-            (0..half)
-                .map(|i| {
-                    log += if i > 0 { (0.5 * x / i as f64).ln() } else { 0.0 };
-                    log.exp()
-                })
-                .sum()
-        }
-        _ => {
-            let mut log = -0.5 * x - 0.5 * x.ln() - 0.5 * (0.5 * std::f64::consts::PI).ln();
-            let terms = (1..=half).map(|i| {
-                log += (x / (2 * i - 1) as f64).ln();
-                log.exp()
-            });
-            2.0 * normal_tail(x.sqrt()) + terms.sum::<f64>()
-        }
-    };
-    tail.min(1.0)
+    statistics::chi_square_tail(x, degrees_of_freedom as f64)
 }
 
 struct Solved {

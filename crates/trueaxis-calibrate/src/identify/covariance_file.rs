@@ -47,7 +47,7 @@ pub fn covariance_file(
     }
     let rows = rows(found);
     let values = &rows * DVector::from_column_slice(&found.fit.values);
-    let covariance = &rows * &found.fit.covariance * rows.transpose() * found.birge.powi(2);
+    let covariance = &rows * &found.fit.covariance * rows.transpose();
     let names = found.design.names();
     for (i, row) in rows.row_iter().enumerate() {
         let members = row.iter().zip(&names).filter(|(share, _)| **share != 0.0);

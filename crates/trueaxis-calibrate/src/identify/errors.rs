@@ -5,38 +5,33 @@
 //!                                             held-out residuals ──> score, verdict
 //! ```
 
-use super::checks::check_records;
+use super::adequacy::{Adequacy, Task, adequacy};
+use super::assumptions::{check_assumed, check_result, check_times};
+use super::checks::{check_records, tell_fault};
 use super::conflict::check_conflicts;
 use super::convention::{ConventionCheck, check_conventions};
 use super::feeds::{Feeds, check_feeds, feeds};
+use super::gross::without_gross;
 use super::influence::{Influences, influences};
-use super::leftover::{Field, leftover_fields};
 use super::records::{Loss, Options, Records};
+use super::robust::{huber, linearised};
 use super::score::{Residuals, Score, repeatability};
 use super::selection;
 use super::selection::{Candidates, Selection, Sums, parts_by_place, select};
 use super::stages::{Sequence, Value, compare, go_through};
 use crate::plan::Unobservable;
 use nalgebra::DVector;
-use trueaxis_geometry::statistics::{chi_square_above, normal_quantile_above, robust_deviation};
+use trueaxis_geometry::statistics::chi_square_above;
 use trueaxis_input::{Diagnostics, Place};
-use trueaxis_machine::axis::MAX_AXES;
+use trueaxis_machine::axis::{AxisKind, MAX_AXES};
 use trueaxis_machine::errors::ErrorKind;
 use trueaxis_measure::measure::{Campaign, Readings};
-use trueaxis_measure::unknowns::confusion::{Confusion, confusions};
+use trueaxis_measure::unknowns::confusion::Confusion;
 use trueaxis_measure::unknowns::design::{Design, Unknown};
-use trueaxis_measure::unknowns::fit::{Fit, FitError, by_rows, fit_by, linear_residuals};
+use trueaxis_measure::unknowns::determined::Determined;
+use trueaxis_measure::unknowns::fit::{Fit, FitError, fit_by, linear_residuals};
+use trueaxis_measure::unknowns::unlisted::Follows;
 
-/// The residual may be that many times the floor and still be explained.
-const EXPLAINED: f64 = 1.25;
-/// Held-out errors this many times those in sample mean that the model learnt the noise.
-const OVER_FITTED: f64 = 1.5;
-/// A field that explains less of the residual than this is none.
-const LEAST_SHARE: f64 = 0.15;
-/// Fits with new weights of a robust loss.
-const ROBUST_PASSES: usize = 12;
-/// Huber's bound: 82.14 % of normal numbers are within 1.345 standard deviations.
-const HUBER_TAIL: f64 = 0.1786;
 /// The residual from which on the conventions are checked unasked, in units of the noise.
 const SUSPICIOUS: f64 = 5.0;
 
@@ -77,7 +72,15 @@ pub enum Verdict {
     FollowsPlaces(f64),
     /// The residual turns with a rotary axis: its letter and the share of the squares.
     TurnsWith(String, f64),
-    /// The residual follows neither.
+    /// The residual looks like a location error that is not listed; the share of the squares.
+    Arrangement(f64),
+    /// The residual depends on the direction of approach; the share of the squares.
+    Reverses(f64),
+    /// The residual grows with time; the share of the squares.
+    Drifts(f64),
+    /// So many numbers do not belong to the others.
+    GrossReadings(usize),
+    /// The residual follows none of these.
     Unexplained,
     /// A stage contradicts the stages before it; its name.
     StagesContradict(String),
@@ -93,20 +96,47 @@ impl Verdict {
     pub fn words(&self) -> String {
         match self {
             Self::Explained => "this model explains what can be explained".to_owned(),
-            Self::OverFitted => "this model is over-fitted: measure at more places, or seek less"
-                .to_owned(),
+            Self::OverFitted => {
+                "this model is over-fitted: measure at more places, or seek less".to_owned()
+            }
             Self::FollowsPlaces(share) => format!(
-                "the residual follows machine XYZ (volumetric): {:.0} % of it, on places held out",
+                "more remains than noise, and it follows machine XYZ (volumetric): {:.0} % of it",
                 share * 100.0
             ),
-            Self::TurnsWith(axis, share) => format!(
-                "the residual turns with {axis}: {:.0} % of it, on places held out",
+            Self::TurnsWith(axis, share) => {
+                format!(
+                    "more remains than noise, and it turns with {axis}: {:.0} % of it",
+                    share * 100.0
+                )
+            }
+            Self::Arrangement(share) => format!(
+                "more remains than noise, and {:.0} % of it looks like a location error that is not \
+                 listed: location = \"minimal\" lists all",
                 share * 100.0
             ),
-            Self::Unexplained => "more is left than the instrument's noise, and it follows neither \
-                                  the linear nor the rotary axes: look at the instrument, at drift, \
-                                  at conventions"
-                .to_owned(),
+            Self::Reverses(share) => format!(
+                "more remains than noise, and {:.0} % of it depends on the direction of approach",
+                share * 100.0
+            ),
+            Self::Drifts(share) => format!(
+                "more remains than noise, and {:.0} % of it drifts with time: return to the first \
+                 station, warm the machine up",
+                share * 100.0
+            ),
+            Self::GrossReadings(1) => {
+                "one number does not belong to the others: see the outliers, \
+                                       correct it or delete its row"
+                    .to_owned()
+            }
+            Self::GrossReadings(count) => format!(
+                "{count} numbers do not belong to the others: see the outliers, correct them or delete \
+                 their rows"
+            ),
+            Self::Unexplained => {
+                "more remains than noise, and it follows neither the axes nor the \
+                                  time: look at the instrument, at its noise, at conventions"
+                    .to_owned()
+            }
             Self::StagesContradict(stage) => format!(
                 "stage `{stage}` contradicts what was known before: the result is a mean of two set-ups"
             ),
@@ -120,6 +150,10 @@ impl Verdict {
             Self::OverFitted => "over-fitted",
             Self::FollowsPlaces(_) => "follows-xyz",
             Self::TurnsWith(..) => "turns-with-axis",
+            Self::Arrangement(_) => "arrangement",
+            Self::Reverses(_) => "reverses",
+            Self::Drifts(_) => "drifts",
+            Self::GrossReadings(_) => "gross-readings",
             Self::Unexplained => "unexplained",
             Self::StagesContradict(_) => "stages-contradict",
         }
@@ -149,10 +183,8 @@ pub struct Identification {
     pub residuals: Residuals,
     /// In words what they mean.
     pub verdict: Verdict,
-    /// What the residual follows.
-    pub fields: Vec<Field>,
-    /// Uncertainties were enlarged by this (1: not at all). Unit: 1.
-    pub birge: f64,
+    /// Whether the listed errors explain the readings, and what the rest looks like.
+    pub adequacy: Adequacy,
     /// What each row does.
     pub influences: Influences,
     /// The weights of the rows; empty: all 1. Unit: 1.
@@ -191,14 +223,18 @@ pub fn identify(
     let (parts, places) = parts_by_place(readings, options.folds);
     check_records(&whole, records, places, &place, problems);
     check_feeds(&whole, records, problems);
+    check_assumed(&whole, &place, problems);
+    check_times(records, problems);
     if problems.has_errors() {
         return None;
     }
     let (sequence, whole, options) = through_stages(campaign, whole, options, records, problems)?;
-    match Work::of(whole, records, &options, parts) {
-        Ok(work) => {
-            check_conflicts(&work.whole, readings, &work.z, &place, problems);
-            let mut found = work.identification(campaign, places);
+    let identified = Work::of(whole, records, &options, parts).and_then(|work| {
+        check_conflicts(&work.whole, readings, &work.z, &place, problems);
+        work.identification(campaign, &options, places)
+    });
+    match identified {
+        Ok(mut found) => {
             found.sequence = sequence.map(|mut sequence| {
                 let values: Vec<Value> = found.found.iter().map(|f| f.value).collect();
                 compare(&mut sequence, &values, &place, problems);
@@ -207,6 +243,7 @@ pub fn identify(
                 }
                 sequence
             });
+            check_result(&found, records, &place, problems);
             Some(found)
         }
         Err(fault) => {
@@ -272,7 +309,7 @@ impl<'a> Work<'a> {
     ) -> Result<Self, FitError> {
         let readings = &records.readings;
         let (first, weights) = robust(&whole, readings, options)?;
-        let confusions = confusions(&first.sight);
+        let confusions = Determined::of(&whole, &first).confusions(&whole, &first.sight);
         let z = linearised(&whole, readings, &first);
         let sums = sums_of_parts(&whole, readings, &z, &weights, &parts);
         let candidates = candidates(&whole);
@@ -311,24 +348,37 @@ impl<'a> Work<'a> {
         }
     }
 
-    fn identification(self, campaign: &Campaign, places: usize) -> Identification {
+    fn identification(
+        self,
+        campaign: &Campaign,
+        options: &Options,
+        places: usize,
+    ) -> Result<Identification, FitError> {
         let (design, readings) = (&self.design, self.readings);
         let residuals = self.residuals();
-        let score = Score::of(design, readings, &residuals, repeatability(design, readings));
-        let fields = leftover_fields(design, readings, &residuals.held_out, &self.parts);
-        let birge = birge(&self.fit);
-        let mut unseen = vec![false; self.whole.unknowns()];
-        self.confusions.iter().flat_map(|c| &c.members).for_each(|(k, _)| unseen[*k] = true);
+        let (floor, repeats) = repeatability(design, readings, &self.weights);
+        let score = Score::of(design, readings, &residuals, floor);
+        let adequacy = adequacy(Task {
+            design,
+            readings,
+            weights: &self.weights,
+            fit: &self.fit,
+            repeats,
+            rule: options.rule(),
+            predicts: options.predicts,
+        })?;
+        let determined = adequacy.explained.listed.clone();
+        let influences = influences(design, readings, &self.weights, &self.fit);
         let left_out = self.candidates.maybe.iter().filter(|k| !self.numbers.contains(k));
         let suspicious = score.in_sample.noise > SUSPICIOUS;
         let unobservable = |c: &Confusion| Unobservable::of(campaign, &self.whole, c);
-        Identification {
-            found: found(design, &self.fit, birge, |k| unseen[self.numbers[k]]),
+        Ok(Identification {
+            found: found(design, &determined),
             left_out: left_out.filter_map(|k| self.whole.unknown(*k)).map(|u| u.name()).collect(),
             unobservable: self.confusions.iter().map(unobservable).collect(),
             candidates: self.candidates.maybe.len(),
-            verdict: verdict(design, &score, &fields),
-            influences: influences(design, readings, &self.weights, &self.fit),
+            verdict: verdict(design, &adequacy, influences.outliers.len()),
+            influences,
             conventions: suspicious.then(|| check_conventions(&self.whole, readings)),
             feeds: feeds(campaign, readings),
             sequence: None,
@@ -336,13 +386,12 @@ impl<'a> Work<'a> {
             selection: self.selection,
             score,
             residuals,
-            fields,
-            birge,
+            adequacy,
             weights: self.weights,
             places,
-            fit: self.fit,
+            fit: Fit { values: determined.values, covariance: determined.seen, ..self.fit },
             design: self.design,
-        }
+        })
     }
 }
 
@@ -360,65 +409,12 @@ fn robust(
     options: &Options,
 ) -> Result<(Fit, Vec<f64>), FitError> {
     let fit = |weights: &[f64]| fit_by(options.rule(), design, readings, weights);
-    let mut found = fit(&[])?;
+    let found = fit(&[])?;
     if options.loss == Loss::Squares {
-        return Ok((found, Vec::new()));
+        let without = without_gross(options.rule(), design, readings, &found)?;
+        return Ok(without.unwrap_or((found, Vec::new())));
     }
-    let mut weights = Vec::new();
-    for _ in 0..ROBUST_PASSES {
-        let next = huber_weights(design, readings, &found);
-        let changed = |(a, b): (&f64, &f64)| (a - b).abs() > 1e-3;
-        let settled = !weights.is_empty() && !weights.iter().zip(&next).any(changed);
-        weights = next;
-        if settled {
-            break;
-        }
-        found = fit(&weights)?;
-    }
-    Ok((found, weights))
-}
-
-/// Huber's weights: bound/|r| beyond the bound. A row counts as a whole, by the length of its
-/// residual in units of the noise.
-pub fn huber_weights(design: &Design, readings: &Readings, found: &Fit) -> Vec<f64> {
-    let instrument = |i: usize| &design.instruments[readings.instruments[i] as usize];
-    let in_noise = |i: usize, c: usize| found.residuals[i][c] / instrument(i).noise[c];
-    let channels = |i: usize| instrument(i).sight.channels();
-    let all = (0..readings.len()).flat_map(|i| (0..channels(i)).map(move |c| (i, c)));
-    let scale = robust_deviation(all.map(|(i, c)| in_noise(i, c))).max(1e-12);
-    (0..readings.len())
-        .map(|i| {
-            let size: f64 = (0..channels(i)).map(|c| in_noise(i, c).powi(2)).sum();
-            let bound = match channels(i) {
-                1 => normal_quantile_above(0.5 * HUBER_TAIL),
-                n => chi_square_above(HUBER_TAIL, n as f64).sqrt(),
-            };
-            (bound * scale / size.sqrt().max(1e-300)).min(1.0)
-        })
-        .collect()
-}
-
-pub(super) fn tell_fault(
-    fault: &FitError,
-    records: &Records,
-    place: &Place,
-    problems: &mut Diagnostics,
-) {
-    let (place, hint) = match fault {
-        FitError::Outside { row, .. } => {
-            (records.place(*row), "correct the pose, or extend the table of the machine file")
-        }
-        _ => (place.clone(), "trueaxis identify --check-conventions tries signs, orders and sides"),
-    };
-    problems.error("no-fit", place, fault.to_string(), hint);
-}
-
-/// Residual plus model, linear about the solution, mm or rad.
-pub(super) fn linearised(design: &Design, readings: &Readings, first: &Fit) -> Vec<[f64; 3]> {
-    let values = DVector::from_column_slice(&first.values);
-    by_rows(design, readings, |i, c, slopes| {
-        first.residuals[i][c] + slopes.iter().zip(values.iter()).map(|(a, b)| a * b).sum::<f64>()
-    })
+    huber(found, design, readings, fit)
 }
 
 fn sums_of_parts(
@@ -467,17 +463,11 @@ pub fn birge(fit: &Fit) -> f64 {
     (fit.chi_square / free).sqrt()
 }
 
-fn found(
-    design: &Design,
-    fit: &Fit,
-    birge: f64,
-    is_confused: impl Fn(usize) -> bool,
-) -> Vec<Found> {
+fn found(design: &Design, determined: &Determined) -> Vec<Found> {
     (0..design.unknowns())
         .filter_map(|k| Some((k, design.unknown(k)?)))
         .map(|(k, unknown)| {
-            let seen = fit.sight.is_seen[k] && !is_confused(k);
-            let u = fit.covariance[(k, k)].max(0.0).sqrt() * birge;
+            let value = (determined.values[k], determined.u(k));
             Found {
                 name: unknown.name(),
                 number: k,
@@ -485,30 +475,29 @@ fn found(
                 is_time: unknown.is_time(),
                 is_share: unknown.is_share(),
                 is_setup: matches!(unknown, Unknown::Setup(..)),
-                value: seen.then_some((fit.values[k], u)),
+                value: determined.is_determined[k].then_some(value),
             }
         })
         .collect()
 }
 
-fn verdict(design: &Design, score: &Score, fields: &[Field]) -> Verdict {
-    let held_out = score.held_out.noise;
-    let floor = score.floor.noise.max(1e-12);
-    if held_out <= EXPLAINED * floor {
-        return Verdict::Explained;
+fn verdict(design: &Design, adequacy: &Adequacy, outliers: usize) -> Verdict {
+    if !adequacy.lack.is_found() {
+        return match adequacy.is_barely_checked {
+            _ if outliers > 0 => Verdict::GrossReadings(outliers),
+            true => Verdict::OverFitted,
+            false => Verdict::Explained,
+        };
     }
-    let in_sample = score.in_sample.noise.max(1e-12);
-    if held_out > OVER_FITTED * in_sample {
-        return Verdict::OverFitted;
-    }
-    let strongest = fields.iter().max_by(|a, b| a.share.total_cmp(&b.share));
-    match strongest.filter(|f| f.share > LEAST_SHARE) {
-        Some(Field { axis: None, share }) => Verdict::FollowsPlaces(*share),
-        Some(Field { axis: Some(axis), share }) => {
-            Verdict::TurnsWith(design.machine.axes()[*axis].name.to_string(), *share)
+    let Some(kind) = adequacy.evident() else { return Verdict::Unexplained };
+    let axes = design.machine.axes();
+    match kind.follows {
+        Follows::Axis(axis) if axes[axis].kind == AxisKind::Linear => {
+            Verdict::FollowsPlaces(kind.share)
         }
-        // Worse than no model at all.
-        None if held_out > score.before.noise => Verdict::OverFitted,
-        None => Verdict::Unexplained,
+        Follows::Axis(axis) => Verdict::TurnsWith(axes[axis].name.to_string(), kind.share),
+        Follows::Arrangement => Verdict::Arrangement(kind.share),
+        Follows::Approach => Verdict::Reverses(kind.share),
+        Follows::Time => Verdict::Drifts(kind.share),
     }
 }

@@ -5,6 +5,7 @@
 //!     D = rᵀ(I − H)⁻¹ H (I − H)⁻¹ r / p      Cook's distance of the whole row    docs/model.md eq. 129
 //! ```
 
+use super::adequacy::LEVEL_OF_READINGS;
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 use trueaxis_geometry::statistics::{robust_deviation, student_above};
@@ -43,7 +44,7 @@ pub struct Influences {
     pub rows: Vec<Influence>,
     /// Numbers beyond the limit, the worst first.
     pub outliers: Vec<Outlier>,
-    /// The limit of studentised residuals: 5 % that any of all numbers is beyond it (Bonferroni). Unit: 1.
+    /// The limit of studentised residuals: 1 % that any of all numbers is beyond it (Bonferroni). Unit: 1.
     pub limit: f64,
 }
 
@@ -66,7 +67,10 @@ pub fn influences(design: &Design, readings: &Readings, weights: &[f64], fit: &F
     let all = || (0..rows.len()).flat_map(|i| (0..channels(i)).map(move |c| (i, c)));
     let scale = robust_deviation(all().map(|(i, c)| rows[i].standardised[c])).max(1.0);
     let numbers = all().count().max(1);
-    let limit = student_above(0.025 / numbers as f64, fit.degrees_of_freedom.max(3) as f64);
+    let limit = student_above(
+        0.5 * LEVEL_OF_READINGS / numbers as f64,
+        fit.degrees_of_freedom.max(3) as f64,
+    );
     let mut outliers: Vec<Outlier> = all()
         .map(|(row, channel)| Outlier {
             row,

@@ -121,8 +121,7 @@ fn curve_u(found: &Identification, terms: &[(usize, Term)]) -> f64 {
         let pairs = (0..phi.len()).flat_map(|a| (0..phi.len()).map(move |b| (a, b)));
         pairs.map(|(a, b)| phi[a] * phi[b] * covariance(a, b)).sum::<f64>().max(0.0).sqrt()
     };
-    let most = (0..=40).map(|i| at(low + (high - low) * f64::from(i) / 40.0)).fold(0.0, f64::max);
-    most * found.birge
+    (0..=40).map(|i| at(low + (high - low) * f64::from(i) / 40.0)).fold(0.0, f64::max)
 }
 
 /// The text reads as a machine that has the errors that were found.

@@ -214,6 +214,8 @@ pub struct Options {
     pub threshold: f64,
     /// The whole machine, or what is linear of it.
     pub model: Model,
+    /// Whether readings are predicted from others, too.
+    pub predicts: bool,
     /// When it was measured, as written.
     pub date: Option<String>,
 }
@@ -226,6 +228,7 @@ impl Default for Options {
             selection: true,
             threshold: THRESHOLD,
             model: Model::Full,
+            predicts: false,
             date: None,
         }
     }
@@ -240,7 +243,7 @@ impl Options {
 
 /// Reads `[fit]`.
 pub fn read_options(root: &Section<'_>) -> Options {
-    let mut options = Options::default();
+    let mut options = Options { predicts: true, ..Options::default() };
     root.section("fit", |section| {
         if let Some(item) = section.get("loss") {
             options.loss = read_word(&item, LOSSES);

@@ -1,8 +1,12 @@
 //! How well a model does: in sample, held out, against the floor, against no model.
 
+use super::adequacy::Scatter;
 use std::collections::BTreeMap;
 use trueaxis_measure::measure::Readings;
 use trueaxis_measure::unknowns::design::Design;
+
+/// Fewer repeats say little of the noise.
+const LEAST_REPEATS: f64 = 10.0;
 
 /// Root mean squares of residuals.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -102,13 +106,18 @@ impl Score {
     }
 }
 
-/// The scatter of readings that were repeated in the same place, if ten or more were.
-pub fn repeatability(design: &Design, readings: &Readings) -> Option<Rms> {
+/// The scatter of readings that were repeated in the same place, if ten or more were, and all of it as squares.
+pub fn repeatability(
+    design: &Design,
+    readings: &Readings,
+    weights: &[f64],
+) -> (Option<Rms>, Option<Scatter>) {
     let mut places: BTreeMap<_, Vec<usize>> = BTreeMap::new();
     for i in 0..readings.len() {
         let of = readings.instruments[i];
         // Of a touch probe the axes are the reading: no two are the same.
-        if design.instruments[of as usize].kind.triggers() {
+        let is_left_out = weights.get(i) == Some(&0.0);
+        if is_left_out || design.instruments[of as usize].kind.triggers() {
             continue;
         }
         let command = readings.commands[i].map(|q| (q * 1e6).round() as i64);
@@ -132,9 +141,12 @@ pub fn repeatability(design: &Design, readings: &Readings) -> Option<Rms> {
             }
         }
     }
-    (noise.count >= 10.0).then(|| Rms {
+    let enough = noise.count >= LEAST_REPEATS;
+    let rms = || Rms {
         noise: noise.root().unwrap_or(0.0),
         length_mm: length.root(),
         angle_rad: angle.root(),
-    })
+    };
+    let scatter = || Scatter { square: noise.sum, freedom: noise.count };
+    (enough.then(rms), enough.then(scatter))
 }

@@ -59,7 +59,7 @@ impl Sums {
             let range = *start..(start + CHUNK).min(readings.len());
             let mut columns = design.columns(readings, range.clone());
             let mut right = Vec::with_capacity(columns.ncols());
-            let mut next = 0;
+            let (mut next, mut left_out) = (0, 0);
             for i in range {
                 let instrument = &design.instruments[readings.instruments[i] as usize];
                 let root = weights.get(i).map_or(1.0, |w| w.sqrt());
@@ -67,6 +67,7 @@ impl Sums {
                     z[i].iter().zip(instrument.noise).take(instrument.sight.channels())
                 {
                     right.push(value / u * root);
+                    left_out += usize::from(root == 0.0);
                     if root != 1.0 {
                         columns.column_mut(next).scale_mut(root);
                     }
@@ -78,7 +79,7 @@ impl Sums {
                 normal: &columns * columns.transpose(),
                 gradient: &columns * &right,
                 square: right.norm_squared(),
-                numbers: right.len(),
+                numbers: right.len() - left_out,
             }
         };
         let mut all = Self::zero(design.unknowns());

@@ -8,9 +8,10 @@
 //!
 //! Sums do not depend on their order: the result is that of all readings at once.
 
+use super::checks::tell_fault;
 use super::conflict::chi_square_tail;
-use super::errors::{linearised, tell_fault};
 use super::records::{Options, Records};
+use super::robust::linearised;
 use super::selection::Sums;
 use super::stage_tables::Calibrated;
 use nalgebra::DVector;

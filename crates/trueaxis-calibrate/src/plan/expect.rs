@@ -5,8 +5,9 @@ use nalgebra::DMatrix;
 use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_measure::measure::{Campaign, Readings};
-use trueaxis_measure::unknowns::confusion::{Confusion, confusions};
+use trueaxis_measure::unknowns::confusion::Confusion;
 use trueaxis_measure::unknowns::design::{Design, Unknown};
+use trueaxis_measure::unknowns::determined::{Determined, members_that_matter};
 use trueaxis_measure::unknowns::fit::{Observability, normal_matrix};
 
 /// How large an error is taken to be where its effect is shown: 10 µm or 10 µrad, in mm and rad.
@@ -39,9 +40,11 @@ pub struct Unobservable {
 impl Unobservable {
     /// A combination with the set-up that resolves it.
     pub fn of(campaign: &Campaign, design: &Design, confusion: &Confusion) -> Self {
+        let members = members_that_matter(design, &confusion.members);
+        let short = Confusion { members };
         Self {
-            combination: confusion.formula(design),
-            words: confusion.words(design),
+            combination: short.formula(design),
+            words: short.words(design),
             resolve_with: remedies(campaign, design, confusion),
         }
     }
@@ -65,20 +68,20 @@ pub struct Expectation {
 /// The uncertainties that these stations will give, by the stated noise of the instruments.
 pub fn expect(campaign: &Campaign, design: &Design, stations: &Readings) -> Expectation {
     let sight = Observability::of(&normal_matrix(design, stations, &[]));
-    let covariance = sight.covariance();
+    let determined = Determined::expected(design, &sight);
     let unknowns = (0..design.unknowns()).filter_map(|k| {
         let unknown = design.unknown(k)?;
-        let u = sight.is_seen[k].then(|| covariance[(k, k)].max(0.0).sqrt());
+        let u = determined.is_determined[k].then(|| determined.u(k));
         Some(Expected { unknown: k, name: unknown.name(), is_angle: unknown.is_angle(), u })
     });
-    let unobservable =
-        confusions(&sight).into_iter().map(|c| Unobservable::of(campaign, design, &c));
+    let unobservable = determined.confusions(design, &sight).into_iter();
+    let unobservable = unobservable.map(|c| Unobservable::of(campaign, design, &c));
     Expectation {
         unknowns: unknowns.collect(),
         unobservable: unobservable.collect(),
         rank: sight.rank,
         condition: sight.condition(),
-        covariance,
+        covariance: determined.covariance,
     }
 }
 

@@ -268,6 +268,8 @@ fn further_instrument(
         noise: [1e-3; 3],
         unknowns: trueaxis_measure::measure::usual_setup(kind),
         material: None,
+        reads: Default::default(),
+        assumed: Default::default(),
     }
 }
 

@@ -1,5 +1,6 @@
 //! An identification in text and on a page.
 
+use super::adequacy::{adequacy_remarks, kinds_words, predictor_section};
 use super::identification_arrows::{Arrow, arrow_picture, longest, magnification};
 use super::identification_pictures::{Bar, bars, correlation_map};
 use super::stages::stage_sections;
@@ -50,7 +51,7 @@ fn unit(found: &Found) -> &'static str {
 }
 
 /// `1.02 µm, 3.1 µrad`.
-fn rms_words(rms: &Rms) -> String {
+pub(super) fn rms_words(rms: &Rms) -> String {
     let length = rms.length_mm.map(|v| format!("{:.3} µm", v * 1e3));
     let angle = rms.angle_rad.map(|v| format!("{:.3} µrad", v * 1e6));
     length.into_iter().chain(angle).collect::<Vec<_>>().join(", ")
@@ -76,14 +77,7 @@ impl IdentificationReport<'_> {
     fn remarks(&self) -> Vec<String> {
         let found = self.found;
         let mut remarks = Vec::new();
-        if found.birge > 1.0 {
-            let fit = &found.fit;
-            remarks.push(format!(
-                "χ² = {:.0} with {} degrees of freedom is beyond its 99 % quantile: the \
-                 uncertainties are enlarged by the Birge ratio {:.2}",
-                fit.chi_square, fit.degrees_of_freedom, found.birge
-            ));
-        }
+        remarks.extend(adequacy_remarks(&found.adequacy));
         if !found.left_out.is_empty() {
             remarks.push(format!(
                 "{} of {} candidate terms are not supported by the readings (|z| below {:.1}, chosen \
@@ -158,6 +152,7 @@ pub fn identification_report(answer: IdentificationReport<'_>) -> Report<'_> {
         .verdict(standing, found.verdict.words(), "")
         .sections(found.sequence.iter().flat_map(|s| stage_sections(&found.design, s)))
         .section(score_section(&answer))
+        .sections(predictor_section(&found.design, &found.adequacy))
         .sections(answer.conventions.map(conventions_section))
         .section(arrow_section(&answer))
         .section(error_section(&answer))
@@ -170,7 +165,6 @@ pub fn identification_report(answer: IdentificationReport<'_>) -> Report<'_> {
 
 fn score_section<'a>(answer: &IdentificationReport<'_>) -> Section<'a> {
     let found = answer.found;
-    let axes = found.design.machine.axes();
     let table = Table::new(["root mean square of the residual", "", "times the noise"]).rows(
         answer
             .scores()
@@ -178,16 +172,11 @@ fn score_section<'a>(answer: &IdentificationReport<'_>) -> Section<'a> {
             .map(|(words, rms)| [(*words).to_owned(), rms_words(rms), format!("{:.2}", rms.noise)]),
     );
     let choice = if found.candidates > 0 { ", the choice of its terms included" } else { "" };
-    let fields = found.fields.iter().map(|f| {
-        let axis = f.axis.map_or("X Y Z".to_owned(), |a| axes[a].name.to_string());
-        format!("{axis} by {:.0} %", 100.0 * f.share.max(0.0))
-    });
-    let fields = fields.collect::<Vec<_>>().join(", ");
     Section::new("How well the model explains the readings")
         .table(table.note(format!(
             "Held out: every place was predicted by a model that had not seen it{choice}."
         )))
-        .paragraph(format!("The residual that is held out follows {fields} of its squares."))
+        .paragraph(kinds_words(&found.design, &found.adequacy))
         .list(answer.remarks())
 }
 
@@ -286,8 +275,7 @@ fn feed_section<'a>(answer: &IdentificationReport<'_>) -> Option<Section<'a>> {
         let variance = c[(a, a)] + c[(b, b)] - 2.0 * c[(a, b)];
         let mismatch = match a == b {
             true => ["reference".to_owned(), String::new()],
-            false => [apart * 1e3, variance.max(0.0).sqrt() * found.birge * 1e3]
-                .map(|v| format!("{v:.3}")),
+            false => [apart * 1e3, variance.max(0.0).sqrt() * 1e3].map(|v| format!("{v:.3}")),
         };
         let [mismatch, u_mismatch] = mismatch;
         Some([f.name.clone(), gain, mismatch, u_mismatch])

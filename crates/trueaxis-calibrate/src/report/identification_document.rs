@@ -1,9 +1,11 @@
 //! An identification for programs: `trueaxis/identify/1`.
 
+use super::adequacy::follows;
 use super::identification::{IdentificationReport, shown};
 use super::stages::{StageEntry, stage_entries};
+use crate::identify::adequacy::LEVEL;
 use crate::identify::convention::ConventionCheck;
-use crate::identify::errors::Found;
+use crate::identify::errors::{Found, Identification};
 use crate::identify::feeds::Feeds;
 use crate::identify::score::Rms;
 use crate::identify::selection::Score;
@@ -72,8 +74,15 @@ pub struct IdentificationDocument<'a> {
     pub feeds: &'a Feeds,
     /// Factor by which the uncertainties are enlarged, 1 or more. Unit: 1.
     pub birge_ratio: f64,
-    /// Which axes the residual of the held-out places follows.
+    /// The test of the residual.
+    pub test: TestEntry,
+    /// How many standard uncertainties contain a value with 95 %: 2, or Student's t where the noise was found from the
+    /// residual. Unit: 1.
+    pub coverage_factor: f64,
+    /// What the residual follows, the most evident first.
     pub residual_follows: Vec<FieldEntry>,
+    /// How well readings are predicted; null if that was not asked for.
+    pub prediction: Option<PredictionEntry>,
     /// How the terms were selected.
     pub selection: SelectionEntry<'a>,
     /// Readings beyond the limit of studentised residuals.
@@ -89,8 +98,8 @@ pub struct IdentificationDocument<'a> {
 /// The result.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct VerdictEntry {
-    /// `explained`, `over-fitted`, `follows-xyz`, `turns-with-axis`, `unexplained` or
-    /// `stages-contradict`.
+    /// `explained`, `over-fitted`, `follows-xyz`, `turns-with-axis`, `arrangement`, `reverses`, `drifts`,
+    /// `gross-readings`, `unexplained` or `stages-contradict`.
     pub key: &'static str,
     /// In words.
     pub words: String,
@@ -137,12 +146,52 @@ pub struct RmsEntry {
     pub times_noise: f64,
 }
 
+/// The test of the residual against noise or repeatability.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct TestEntry {
+    /// `chi-square` against the stated noise, or `F` against repeated readings.
+    pub statistic: &'static str,
+    /// Its value. Unit: 1.
+    pub value: f64,
+    /// What it exceeds by chance, at this level; null without degrees of freedom. Unit: 1.
+    pub limit: Option<f64>,
+    /// How often a good campaign exceeds it. Unit: 1.
+    pub level: f64,
+    /// Degrees of freedom of the residual. Unit: 1.
+    pub degrees_of_freedom: f64,
+    /// Those of the repeatability; null for `chi-square`. Unit: 1.
+    pub degrees_of_freedom_of_repeats: Option<f64>,
+}
+
+/// How well readings are predicted, by all errors together.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct PredictionEntry {
+    /// On the readings themselves.
+    pub in_sample: RmsEntry,
+    /// On readings that were held out.
+    pub held_out: Vec<HeldOutEntry>,
+}
+
+/// Readings that were predicted without them.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct HeldOutEntry {
+    /// The rotary axis of which one angle after the other was held out; null: a part of the places.
+    pub axis: Option<String>,
+    /// How many parts.
+    pub parts: usize,
+    /// The residual by the listed errors alone.
+    pub listed: RmsEntry,
+    /// The residual by all errors, listed or not.
+    pub all: RmsEntry,
+}
+
 /// A part of the residual.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct FieldEntry {
-    /// `XYZ`, or the letter of a rotary axis.
+    /// The letter of an axis, `arrangement` (location errors), `approach` or `time`.
     pub what: String,
-    /// The share of the squares of the residual, 0 to 1. Unit: 1.
+    /// The share of the squares of the residual that this kind of error, which is not listed, would explain alone,
+    /// 0 to 1. Unit: 1.
     pub share: f64,
 }
 
@@ -235,8 +284,11 @@ impl<'a> IdentificationDocument<'a> {
             chi_square: found.fit.chi_square,
             degrees_of_freedom: found.fit.degrees_of_freedom,
             feeds: &found.feeds,
-            birge_ratio: found.birge,
+            birge_ratio: found.adequacy.noise,
+            test: test(found),
+            coverage_factor: found.adequacy.coverage_factor(),
             residual_follows: fields(report),
+            prediction: prediction(found),
             selection: SelectionEntry {
                 candidates: found.candidates,
                 least_z: finite(found.selection.threshold),
@@ -255,12 +307,36 @@ fn finite(value: f64) -> Option<f64> {
 }
 
 fn fields(report: &IdentificationReport<'_>) -> Vec<FieldEntry> {
-    let axes = report.found.design.machine.axes();
-    let fields = report.found.fields.iter().map(|f| FieldEntry {
-        what: f.axis.map_or("XYZ".to_owned(), |a| axes[a].name.to_string()),
-        share: f.share,
+    let found = report.found;
+    let kinds = found.adequacy.kinds.iter();
+    kinds.map(|k| FieldEntry { what: follows(&found.design, k), share: k.share }).collect()
+}
+
+fn test(found: &Identification) -> TestEntry {
+    let lack = &found.adequacy.lack;
+    TestEntry {
+        statistic: if lack.of_repeats.is_some() { "F" } else { "chi-square" },
+        value: lack.statistic,
+        limit: finite(lack.limit),
+        level: LEVEL,
+        degrees_of_freedom: lack.freedom,
+        degrees_of_freedom_of_repeats: lack.of_repeats,
+    }
+}
+
+fn prediction(found: &Identification) -> Option<PredictionEntry> {
+    let predictor = found.adequacy.predictor.as_ref()?;
+    let axes = found.design.machine.axes();
+    let held_out = predictor.held_out.iter().map(|held| HeldOutEntry {
+        axis: held.axis.map(|a| axes[a].name.to_string()),
+        parts: held.parts,
+        listed: RmsEntry::from(&held.listed),
+        all: RmsEntry::from(&held.predicted),
     });
-    fields.collect()
+    Some(PredictionEntry {
+        in_sample: RmsEntry::from(&predictor.in_sample),
+        held_out: held_out.collect(),
+    })
 }
 
 fn outliers(report: &IdentificationReport<'_>) -> Vec<OutlierEntry> {

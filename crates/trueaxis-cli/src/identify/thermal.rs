@@ -15,11 +15,21 @@ Example:
 The study names the logs (one cycle each), the column of the displacement, the candidate sensors and
 lags. Sensors are selected, and the model is validated, on whole cycles that the fit has not used.
 
-Exit status: 0 a model was found, 1 the logs do not support a model, 2 unusable input.")]
+  trueaxis identify thermal examples/05_identify/lathe-thermal.toml \\
+      --score examples/05_identify/lathe-new-day.csv
+
+scores later logs with the model: what remains, what was promised, which sensors did what they had not
+done in the logs of the model, and how U grows there.
+
+Exit status: 0 a model was found, and later logs leave no more than it promised; 1 the logs do not support a
+model, or a later log is worse than promised; 2 unusable input.")]
 pub struct Arguments {
     /// The study: logs, displacement, candidate sensors
     #[arg(value_name = "STUDY.toml")]
     file: PathBuf,
+    /// A later log that the model has not seen; may be repeated
+    #[arg(long, value_name = "LOG.csv")]
+    score: Vec<PathBuf>,
     /// Write an HTML report to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -29,6 +39,7 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    let question = IdentifyThermal { study: arguments.file.clone() };
+    let question =
+        IdentifyThermal { study: arguments.file.clone(), score: arguments.score.clone() };
     Door { format: arguments.format, report: arguments.report.as_deref() }.ask(&question)
 }

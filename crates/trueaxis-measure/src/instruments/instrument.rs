@@ -82,6 +82,32 @@ pub struct SetupUnknown {
     pub prior_u: Option<f64>,
 }
 
+/// Which way the numbers of a file count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Reads {
+    /// As the instrument is defined: of a probe-ball ball − socket, of all others true − commanded.
+    #[default]
+    AsDefined,
+    /// The other way round.
+    Opposite,
+}
+
+impl Reads {
+    /// 1 or −1.
+    pub fn sign(self) -> f64 {
+        if self == Self::Opposite { -1.0 } else { 1.0 }
+    }
+}
+
+/// What a campaign did not state of an instrument, and what was assumed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Assumed {
+    /// Which way its numbers count.
+    pub reads: bool,
+    /// How well the length of the tool is known.
+    pub length: bool,
+}
+
 /// An instrument as it is set up on the machine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Instrument {
@@ -108,6 +134,10 @@ pub struct Instrument {
     pub unknowns: Vec<SetupUnknown>,
     /// Lengths as a material of 20 °C has them, where it is set to that.
     pub material: Option<MaterialCompensation>,
+    /// Which way the numbers of its files count.
+    pub reads: Reads,
+    /// What its section did not state.
+    pub assumed: Assumed,
 }
 
 /// The tool at a station as the reference sees it.
@@ -335,6 +365,8 @@ mod tests {
             noise: [1e-3; 3],
             unknowns: Vec::new(),
             material: None,
+            reads: Default::default(),
+            assumed: Default::default(),
         }
     }
 

@@ -11,6 +11,9 @@ pub enum Kind {
     BallBar,
     /// A touch-trigger probe that hits a ball: every row is a hit, the axes where it triggered.
     TouchProbeBall,
+    /// The centre of a ball that a probing cycle found with the tool-centre-point control on: a row is a place in
+    /// the workpiece frame.
+    BallCentre,
     /// A touch-trigger probe that hits a face: every row is a hit, the axes where it triggered.
     TouchProbeFace,
     /// A laser along an axis: positioning, or straightness across it.
@@ -26,10 +29,11 @@ pub enum Kind {
 }
 
 /// Every kind with its name in files.
-const NAMES: [(Kind, &str); 9] = [
+const NAMES: [(Kind, &str); 10] = [
     (Kind::ProbeBall, "probe-ball"),
     (Kind::BallBar, "ball-bar"),
     (Kind::TouchProbeBall, "touch-probe-ball"),
+    (Kind::BallCentre, "ball-centre"),
     (Kind::TouchProbeFace, "touch-probe-face"),
     (Kind::LaserLine, "laser-line"),
     (Kind::LaserAngle, "laser-angle"),
@@ -62,7 +66,7 @@ impl Kind {
             Self::BallBar | Self::TouchProbeBall | Self::LengthTracker => Sight::Distance,
             Self::TouchProbeFace | Self::LaserLine | Self::Artefact => Sight::Along,
             Self::LaserAngle => Sight::Turn,
-            Self::CutPiece => Sight::Place,
+            Self::BallCentre | Self::CutPiece => Sight::Place,
         }
     }
 
@@ -79,7 +83,20 @@ impl Kind {
 
     /// Whether the tool stays on a ball, or one length away from it, while rotary axes turn.
     pub fn holds_a_ball(self) -> bool {
-        matches!(self, Self::ProbeBall | Self::BallBar | Self::TouchProbeBall)
+        matches!(self, Self::ProbeBall | Self::BallBar | Self::TouchProbeBall | Self::BallCentre)
+    }
+
+    /// Whether a row may be taken for the opposite: the numbers are the place of one thing seen from another.
+    pub fn may_be_opposite(self) -> bool {
+        matches!(self, Self::ProbeBall)
+    }
+
+    /// What `reads` may be: as it is defined, and the other way round.
+    pub fn words_of_reads(self) -> [&'static str; 2] {
+        match self {
+            Self::ProbeBall | Self::BallCentre => ["ball", "tool"],
+            _ => ["deviation", "correction"],
+        }
     }
 
     /// What stands at the tool point.
@@ -87,7 +104,7 @@ impl Kind {
         match self {
             Self::ProbeBall => "socket",
             Self::BallBar => "spindle_ball",
-            Self::TouchProbeBall | Self::TouchProbeFace => "stylus",
+            Self::TouchProbeBall | Self::BallCentre | Self::TouchProbeFace => "stylus",
             Self::LaserLine | Self::LaserAngle => "optics",
             Self::LengthTracker => "reflector",
             Self::Artefact => "gauge",
@@ -98,7 +115,7 @@ impl Kind {
     /// What stands at the reference point.
     pub fn reference_point(self) -> &'static str {
         match self {
-            Self::ProbeBall | Self::TouchProbeBall => "ball",
+            Self::ProbeBall | Self::TouchProbeBall | Self::BallCentre => "ball",
             Self::BallBar => "table_ball",
             Self::TouchProbeFace => "face",
             Self::LaserLine | Self::LaserAngle => "beam",
@@ -133,7 +150,7 @@ impl Kind {
         let point = [0, 1, 2].map(SetupError::ReferencePoint);
         let turn = [0, 1, 2].map(SetupError::ReferenceTurn);
         match self {
-            Self::ProbeBall => point.to_vec(),
+            Self::ProbeBall | Self::BallCentre => point.to_vec(),
             Self::BallBar | Self::TouchProbeBall | Self::LengthTracker => {
                 [&point[..], &[SetupError::Zero(0)]].concat()
             }

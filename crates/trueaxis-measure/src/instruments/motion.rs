@@ -1,6 +1,6 @@
 //! How the axes move while an instrument reads.
 
-use trueaxis_machine::axis::{Command, MAX_AXES};
+use trueaxis_machine::axis::{Approach, Command, MAX_AXES};
 
 /// The state of motion of one reading: of the command, not of what follows it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -14,6 +14,19 @@ pub struct Motion {
     pub turned: [f64; MAX_AXES],
     /// How long ago that was. Unit: s.
     pub turned_ago_s: [f64; MAX_AXES],
+}
+
+/// How and when something was read.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Moment {
+    /// From which side each axis came.
+    pub approach: Approach,
+    /// How the axes move.
+    pub motion: Motion,
+    /// Which instrument reads.
+    pub instrument: u32,
+    /// When. Unit: s.
+    pub time_s: f64,
 }
 
 impl Motion {

@@ -1,17 +1,20 @@
 //! Readings: at which commands of the machine which instrument read what.
 
-use super::Motion;
+use super::Kind;
 use super::instrument::{Instrument, Sight};
+use super::{Moment, Motion};
 use std::fmt::Write as _;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{CsvColumn, CsvTable, Diagnostics, Dimension, Place, Unit};
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{Approach, AxisKind, Command};
+use trueaxis_machine::axis::{Approach, Axis, AxisKind, Command};
+use trueaxis_machine::errors::ErrorValues;
+use trueaxis_machine::tcp::TipControl;
 
 /// Readings as columns: one entry a row.
 ///
 /// A value is what the instrument reads in all, mm or rad; in files most are deviations from the
-/// nominal reading.
+/// nominal reading, but not those of a probe-ball.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Readings {
     /// Programmed axis positions, mm and rad; of a touch probe: where it triggered.
@@ -96,6 +99,16 @@ impl Readings {
         }
     }
 
+    /// How and when a row was read.
+    pub fn moment(&self, i: usize) -> Moment {
+        Moment {
+            approach: self.approaches[i],
+            motion: self.motions[i],
+            instrument: self.instruments[i],
+            time_s: self.times_s[i],
+        }
+    }
+
     /// The rows that are wanted, in order.
     pub fn filtered(&self, wanted: impl Fn(usize) -> bool) -> Self {
         let mut some = Self::default();
@@ -119,8 +132,8 @@ impl Readings {
     /// Columns: the axes by letter (mm, deg; an axis that is not named stands at 0), the channels
     /// of the instrument with their unit (`x_um`, `y_um`, `z_um`; `length_mm`; `deviation_um`;
     /// `angle_urad`), and if wanted `group`, `time_s`, `feed_mm_per_min` (0: standing), the direction `n_x`, `n_y`, `n_z` and the
-    /// side from which an axis came, `X_approach` (1, −1). All but `length` are deviations from the
-    /// nominal reading. A touch probe that triggers has no channel: the axes are its reading.
+    /// side from which an axis came, `X_approach` (1, −1). All but `length` and those of a probe-ball
+    /// (ball − socket) are deviations from the nominal reading. A touch probe that triggers has no channel: the axes are its reading.
     pub fn parse(
         table: &CsvTable,
         machine: &Machine,
@@ -129,6 +142,7 @@ impl Readings {
         problems: &mut Diagnostics,
     ) -> Option<Self> {
         let columns = Columns::find(table, machine, instrument, problems)?;
+        let centres = Centres::of(machine, instrument, &columns, table, problems)?;
         let mut readings = Self::default();
         let mut group = 0;
         for row in 0..table.rows() {
@@ -141,7 +155,13 @@ impl Readings {
                 approach[*axis] = column.values[row].clamp(-1.0, 1.0);
             }
             let direction = columns.direction(row, instrument.direction);
-            let value = columns.value(row, machine, instrument, &command, direction);
+            let value = match &centres {
+                None => columns.value(row, machine, instrument, &command, direction),
+                Some(centres) => {
+                    let place = || table.row_place(row);
+                    centres.put(columns.place(row), &mut command, place, problems)
+                }
+            };
             // Without a column of groups every place is a group: the same commands are one place.
             let same = row > 0 && readings.commands[row - 1] == command;
             group = match columns.group {
@@ -192,7 +212,9 @@ impl Readings {
         for i in mine {
             let row = self.row(i);
             // Writing to a String cannot fail.
-            for (axis, q) in machine.axes().iter().zip(row.command) {
+            for (axis, q) in
+                machine.axes().iter().zip(row.command).filter(|(a, _)| written(instrument, a))
+            {
                 let shown = if axis.kind == AxisKind::Rotary { q.to_degrees() } else { q };
                 let _ = write!(text, "{shown},");
             }
@@ -201,13 +223,8 @@ impl Readings {
                     let _ = write!(text, "{side},");
                 }
             }
-            let nominal = match absolute(instrument) {
-                true => [0.0; 3],
-                false => instrument.nominal_reading(machine, &row.command, row.direction),
-            };
-            for c in channels(instrument).take(3) {
-                let scale = if absolute(instrument) { 1.0 } else { shown_scale(instrument) };
-                let _ = write!(text, "{},", (row.value[c] - nominal[c]) * scale);
+            for shown in shown(instrument, machine, &row) {
+                let _ = write!(text, "{shown},");
             }
             if directed {
                 let n = row.direction;
@@ -225,6 +242,35 @@ impl Readings {
     }
 }
 
+/// Of a centre that was found only the rotary axes are written: the linear ones follow from where it is.
+fn written(instrument: &Instrument, axis: &Axis) -> bool {
+    instrument.kind != Kind::BallCentre || axis.kind == AxisKind::Rotary
+}
+
+/// The channels of a row as they stand in a file.
+fn shown(instrument: &Instrument, machine: &Machine, row: &Reading) -> Vec<f64> {
+    let channels = channels(instrument);
+    if instrument.kind == Kind::BallCentre {
+        // The tip must be commanded so far the other way to meet the ball.
+        let tool = machine.pose(&row.command, &ErrorValues::default());
+        let tip = tool.linear() * instrument.tool_point_mm + tool.shift_mm();
+        let from_ball = tip - instrument.reference_point_mm;
+        let sign = instrument.reads.sign();
+        return channels
+            .map(|c| instrument.reference_point_mm[c] + sign * (from_ball[c] - row.value[c]))
+            .collect();
+    }
+    if absolute(instrument) {
+        return channels.map(|c| row.value[c]).collect();
+    }
+    let nominal = match whole(instrument) {
+        true => [0.0; 3],
+        false => instrument.nominal_reading(machine, &row.command, row.direction),
+    };
+    let scale = shown_scale(instrument) * instrument.reads.sign();
+    channels.map(|c| (row.value[c] - nominal[c]) * scale).collect()
+}
+
 /// The column of the feed of the tool against the workpiece.
 const FEED: &str = "feed_mm_per_min";
 
@@ -234,7 +280,13 @@ fn channels(instrument: &Instrument) -> std::ops::Range<usize> {
 
 /// Distances are written whole, everything else against its nominal reading.
 fn absolute(instrument: &Instrument) -> bool {
-    instrument.sight == Sight::Distance
+    instrument.sight == Sight::Distance || instrument.kind == Kind::BallCentre
+}
+
+/// A probe-ball reads where the ball is, not a deviation: at a command that is written with few decimals the
+/// socket stands beside the ball without any error of the machine, and the reading contains that.
+fn whole(instrument: &Instrument) -> bool {
+    instrument.kind == Kind::ProbeBall
 }
 
 /// From mm or rad to µm or µrad.
@@ -247,7 +299,8 @@ fn headings(
     instrument: &Instrument,
     [directed, approached, fed]: [bool; 3],
 ) -> String {
-    let mut names: Vec<String> = machine.axes().iter().map(|a| a.name.to_string()).collect();
+    let axes = machine.axes().iter().filter(|a| written(instrument, a));
+    let mut names: Vec<String> = axes.map(|a| a.name.to_string()).collect();
     if approached {
         names.extend(machine.axes().iter().map(|a| format!("{}_approach", a.name)));
     }
@@ -264,6 +317,73 @@ fn headings(
     names.extend(["group".to_owned(), "time_s".to_owned()]);
     names.extend(fed.then(|| FEED.to_owned()));
     names.join(",") + "\n"
+}
+
+/// Farther from its ball than this no centre was found, mm.
+const FAR_MM: f64 = 20.0;
+
+/// From places where a ball was found to the axes that stood there.
+struct Centres<'a> {
+    control: TipControl,
+    instrument: &'a Instrument,
+}
+
+impl<'a> Centres<'a> {
+    /// `Some(None)` for an instrument that finds no centres.
+    fn of(
+        machine: &Machine,
+        instrument: &'a Instrument,
+        columns: &Columns<'_>,
+        table: &CsvTable,
+        problems: &mut Diagnostics,
+    ) -> Option<Option<Self>> {
+        if instrument.kind != Kind::BallCentre {
+            return Some(None);
+        }
+        let control = TipControl::of(&machine.clone().with_tip(instrument.tool_point_mm));
+        if control.is_none() || columns.channels.len() < 3 {
+            let message =
+                "the tool cannot follow the ball: fewer than three linear axes".to_owned();
+            problems.error(
+                "cannot-follow",
+                Place::whole(&table.file),
+                message,
+                "kind = \"cut-piece\"",
+            );
+            return None;
+        }
+        Some(control.map(|control| Self { control, instrument }))
+    }
+
+    /// Sets the linear axes of a command to the ball as it is stated; what is read is how far the tool must have been
+    /// off there. At the axes that stood at the place that was found, the answer would be part of the question: errors
+    /// that grow with X, Y, Z could undo the motion of the axes themselves.
+    fn put(
+        &self,
+        seen_mm: Vec3,
+        command: &mut Command,
+        place: impl Fn() -> Place,
+        problems: &mut Diagnostics,
+    ) -> [f64; 3] {
+        let ball = self.instrument.reference_point_mm;
+        let from_ball = (seen_mm - ball) * self.instrument.reads.sign();
+        let off = from_ball.norm();
+        if off.is_nan() || off > FAR_MM {
+            let message =
+                format!("the ball was found {off:.1} mm from where it is stated to stand");
+            let hint = "a wrong row, a wrong unit, or `ball` of the instrument: the place in the workpiece frame";
+            problems.error("far-from-ball", place(), message, hint);
+        } else if !self.control.place(ball, command) {
+            let message = "the linear axes cannot bring the tool to the ball".to_owned();
+            problems.error(
+                "cannot-follow",
+                place(),
+                message,
+                "is it the place in the workpiece frame?",
+            );
+        }
+        (-from_ball).into()
+    }
 }
 
 /// Which column is what.
@@ -303,6 +423,9 @@ impl<'t> Columns<'t> {
             found.normal = Some([x, y, z]);
         }
         let missing = |name: &str| format!("the table has no column for {name}");
+        if instrument.kind == Kind::BallCentre {
+            found.refuse_linear(machine, problems);
+        }
         if found.axes.is_empty() {
             let hint =
                 "head the columns of positions by the letters of the axes: X,Y,Z (mm), A (deg)";
@@ -311,7 +434,11 @@ impl<'t> Columns<'t> {
         for c in channels(instrument) {
             if !found.channels.iter().any(|(channel, ..)| *channel == c) {
                 let name = instrument.kind.channels()[c];
-                let unit = if instrument.sight.is_angle() { "urad" } else { "um" };
+                let unit = match instrument.sight.is_angle() {
+                    true => "urad",
+                    false if absolute(instrument) => "mm",
+                    false => "um",
+                };
                 let hint = format!("a {} reads `{name}_{unit}`", instrument.kind.name());
                 problems.error("missing-column", Place::whole(&table.file), missing(name), &hint);
             }
@@ -361,6 +488,19 @@ impl<'t> Columns<'t> {
         }
     }
 
+    /// The linear axes follow from where the centre was found.
+    fn refuse_linear(&self, machine: &Machine, problems: &mut Diagnostics) {
+        let linear =
+            |(axis, ..): &&(usize, f64, &CsvColumn)| machine.axes()[*axis].kind == AxisKind::Linear;
+        if let Some((axis, _, column)) = self.axes.iter().find(linear) {
+            let message =
+                format!("{} has a column, and so has the place", machine.axes()[*axis].name);
+            let hint = "x_mm, y_mm, z_mm say where the centre was found: delete the linear axes, or use kind \
+                        \"probe-ball\" with what was read there";
+            problems.error("place-twice", column.place.clone(), message, hint);
+        }
+    }
+
     /// A feed is 0 (standing) or more.
     fn take_feed(&mut self, column: &'t CsvColumn, problems: &mut Diagnostics) {
         if let Some(row) = column.values.iter().position(|f| *f < 0.0) {
@@ -384,6 +524,15 @@ impl<'t> Columns<'t> {
             .unwrap_or(usual)
     }
 
+    /// Where the centre of a ball was found, mm.
+    fn place(&self, row: usize) -> Vec3 {
+        let mut place = Vec3::zeros();
+        for (channel, _, unit, column) in &self.channels {
+            place[*channel] = unit.to_inner(column.values[row]);
+        }
+        place
+    }
+
     fn value(
         &self,
         row: usize,
@@ -395,10 +544,16 @@ impl<'t> Columns<'t> {
         if instrument.kind.triggers() {
             return [instrument.length_mm, 0.0, 0.0];
         }
-        let nominal = instrument.nominal_reading(machine, command, direction);
+        let nominal = match whole(instrument) {
+            true => [0.0; 3],
+            false => instrument.nominal_reading(machine, command, direction),
+        };
         let mut value = [0.0; 3];
         for (channel, whole, unit, column) in &self.channels {
-            let read = unit.to_inner(column.values[row]);
+            let mut read = unit.to_inner(column.values[row]);
+            if !*whole {
+                read *= instrument.reads.sign();
+            }
             let against = match (whole, instrument.length_mm > 0.0) {
                 (true, _) => 0.0,
                 (false, true) if absolute(instrument) => instrument.length_mm,

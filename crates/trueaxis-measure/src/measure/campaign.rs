@@ -5,14 +5,16 @@ use super::prior::read_prior_file;
 use super::servo::read_servo;
 use super::stages::{Stage, Stages, read_stages, warn_of_doubles};
 use super::{Kind, Readings, fill_motion};
-use crate::instruments::instrument::{Instrument, SetupError, SetupUnknown};
+use crate::instruments::instrument::{Assumed, Instrument, Reads, SetupError, SetupUnknown};
 use crate::unknowns::design::Design;
 use crate::unknowns::minimal::minimal_location_errors;
 use crate::unknowns::term::{Shape, Term};
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
+use trueaxis_input::foreign;
 use trueaxis_input::{CsvTable, Diagnostics, Dimension, Files, Item, Section, SourceText};
 use trueaxis_machine::Machine;
+use trueaxis_machine::axis::AxisKind;
 use trueaxis_machine::errors::{Component, ErrorKind, ErrorName};
 use trueaxis_machine::file::{machine_of, read_direction, read_vector_mm};
 use trueaxis_machine::heat::Conditions;
@@ -64,9 +66,8 @@ impl Campaign {
         let mut sound = true;
         for (index, (instrument, tables)) in self.instruments.iter().zip(&self.tables).enumerate() {
             for path in tables {
-                let table = self
-                    .files
-                    .text(path, "a table of readings (CSV)", problems)
+                let what = "a table of readings (CSV)";
+                let table = foreign::mapped_text(&self.files, path, what, problems)
                     .map(|text| CsvTable::parse(&path.display().to_string(), &text, problems));
                 let index = u32::try_from(index).unwrap_or(u32::MAX);
                 let read = table.and_then(|table| {
@@ -142,12 +143,14 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Campaign> {
     };
     let terms = root.section("unknown", |s| read_unknown(s, &machine)).unwrap_or_default();
     root.require("instrument", "[instrument.probe] kind = \"probe-ball\"");
+    // Stages calibrate what they need, as a prior does.
+    let assumes = root.get("stage").is_none() && root.get("prior").is_none();
     let mut instruments = Vec::new();
     let mut tables = Vec::new();
     root.section("instrument", |section| {
         for (key, _, item) in section.entries().into_iter().take(MOST_INSTRUMENTS) {
             let warm = (&machine, conditions.as_ref());
-            let read = |s: &Section<'_>| read_instrument(s, key, warm, folder);
+            let read = |s: &Section<'_>| read_instrument(s, key, warm, (folder, assumes));
             if let Some((instrument, files)) = item.section(&section.path(key), read).flatten() {
                 instruments.push(instrument);
                 tables.push(files);
@@ -295,7 +298,7 @@ fn read_instrument(
     section: &Section<'_>,
     name: &str,
     (machine, conditions): (&Machine, Option<&Conditions>),
-    folder: &Path,
+    (folder, assumes): (&Path, bool),
 ) -> Option<(Instrument, Vec<PathBuf>)> {
     let kinds = Kind::all().map(Kind::name).collect::<Vec<_>>().join(", ");
     let item = section.require("kind", &kinds)?;
@@ -328,6 +331,10 @@ fn read_instrument(
     };
     let material = material?;
     unknowns.extend(material.as_ref().and_then(material_unknown));
+    let reads = section.get("reads").map(|i| read_reads(&i, kind));
+    let length = assumed_length(machine, kind, &unknowns).filter(|_| assumes);
+    let assumed = Assumed { reads: reads.is_none(), length: length.is_some() };
+    unknowns.extend(length);
     let tables = section.get("readings").map(|i| read_tables(&i, folder)).unwrap_or_default();
     Some((
         Instrument {
@@ -342,9 +349,51 @@ fn read_instrument(
             noise: noise?,
             unknowns,
             material,
+            reads: reads.flatten().unwrap_or_default(),
+            assumed,
         },
         tables,
     ))
+}
+
+/// How well the length of a tool is known where it is not stated: a presetter, or a length that was touched off.
+pub const LENGTH_U_MM: f64 = 0.05;
+
+/// The length of the tool as an unknown, where rotary axes make it count and the campaign says nothing of it.
+fn assumed_length(machine: &Machine, kind: Kind, stated: &[SetupUnknown]) -> Option<SetupUnknown> {
+    let error = SetupError::ToolPoint(2);
+    let turns = machine.axes().iter().any(|a| a.kind == AxisKind::Rotary);
+    let is_stated = stated.iter().any(|u| matches!(u.error, SetupError::ToolPoint(_)));
+    (turns && kind.holds_a_ball() && !is_stated).then(|| SetupUnknown {
+        name: kind.unknown_name(error),
+        error,
+        prior_u: Some(LENGTH_U_MM),
+    })
+}
+
+/// Which way the numbers count.
+fn read_reads(item: &Item<'_>, kind: Kind) -> Option<Reads> {
+    let [defined, opposite] = kind.words_of_reads();
+    match item.text()? {
+        word if word == defined => Some(Reads::AsDefined),
+        word if word == opposite => Some(Reads::Opposite),
+        other => {
+            let message = format!("a {} does not read `{other}`", kind.name());
+            let hint = match kind {
+                Kind::ProbeBall => {
+                    "\"ball\": ball − socket, where the ball was seen; \"tool\": socket − ball, the tool against the ball"
+                }
+                Kind::BallCentre => {
+                    "\"ball\": where the ball was seen; \"tool\": where the tool stood when it was sent to the ball"
+                }
+                _ => {
+                    "\"deviation\": true − commanded; \"correction\": what must be added, the other way round"
+                }
+            };
+            item.error("unknown-reads", message, hint);
+            None
+        }
+    }
 }
 
 fn read_reference(item: &Item<'_>) -> Option<Reference> {

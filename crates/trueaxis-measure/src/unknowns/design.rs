@@ -7,7 +7,7 @@
 use super::known::Known;
 use super::term::{Basis, Term};
 use crate::instruments::instrument::{SetupUnknown, Sight, View};
-use crate::instruments::{Instrument, Motion, Readings};
+use crate::instruments::{Instrument, Moment, Readings};
 use nalgebra::DMatrix;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Command};
@@ -92,12 +92,17 @@ impl Design {
     /// A design; what the machine states of the unknown errors is not used.
     pub fn new(machine: &Machine, terms: Vec<Term>, instruments: Vec<Instrument>) -> Self {
         let mut machine = machine.clone();
+        // A lag is unknown in addition to what the machine file states, not in its place.
+        for term in terms.iter().filter(|t| !t.basis.is_servo()) {
+            machine = machine.with_error(term.index, None);
+        }
+        Self::in_addition(machine, terms, instruments)
+    }
+
+    /// A design whose unknowns come in addition to all that the machine states.
+    fn in_addition(machine: Machine, terms: Vec<Term>, instruments: Vec<Instrument>) -> Self {
         let mut runs: Vec<(ErrorIndex, std::ops::Range<usize>)> = Vec::new();
         for (k, term) in terms.iter().enumerate() {
-            // A lag is unknown in addition to what the machine file states, not in its place.
-            if !term.basis.is_servo() {
-                machine = machine.with_error(term.index, None);
-            }
             match runs.last_mut().filter(|(index, _)| *index == term.index) {
                 Some((_, range)) => range.end = k + 1,
                 None => runs.push((term.index, k..k + 1)),
@@ -121,6 +126,13 @@ impl Design {
         }
         offsets.push(next);
         Self { machine, terms, instruments, offsets, runs, functions, function_of, known: None }
+    }
+
+    /// The same with further terms after its own, in addition to what the machine states.
+    pub fn with_more(&self, further: &[Term]) -> Self {
+        let terms = [&self.terms, further].concat();
+        let more = Self::in_addition(self.machine.clone(), terms, self.instruments.clone());
+        more.with_known(self.known())
     }
 
     /// The same with what was known before of several unknowns together; of other unknowns it says nothing.
@@ -181,19 +193,19 @@ impl Design {
         approach: &Approach,
         values: &[f64],
     ) -> Result<ErrorValues, CommandFault> {
-        self.errors_in_motion(command, approach, &Motion::default(), values)
+        let moment = Moment { approach: *approach, ..Moment::default() };
+        self.errors_in(command, &moment, values)
     }
 
-    /// The same while the axes move.
-    fn errors_in_motion(
+    /// The same while the axes move, at a time.
+    fn errors_in(
         &self,
         command: &Command,
-        approach: &Approach,
-        motion: &Motion,
+        moment: &Moment,
         values: &[f64],
     ) -> Result<ErrorValues, CommandFault> {
-        let mut errors = self.machine.errors_at(command, approach)?;
-        let phi = self.functions_at(command, approach, motion);
+        let mut errors = self.machine.errors_at(command, &moment.approach)?;
+        let phi = self.functions_at(command, moment);
         for ((term, f), c) in self.terms.iter().zip(&self.function_of).zip(values) {
             errors.add(term.index, c * phi[*f]);
         }
@@ -201,12 +213,8 @@ impl Design {
     }
 
     /// φ of every function at a command.
-    fn functions_at(&self, command: &Command, approach: &Approach, motion: &Motion) -> Vec<f64> {
-        let at = |(axis, basis): &(Option<usize>, Basis)| {
-            let moving = |i| basis.in_motion(command, approach, i, motion);
-            axis.map_or_else(|| basis.value(0.0, 0.0), moving)
-        };
-        self.functions.iter().map(at).collect()
+    fn functions_at(&self, command: &Command, moment: &Moment) -> Vec<f64> {
+        self.functions.iter().map(|(axis, basis)| basis.at(command, *axis, moment)).collect()
     }
 
     /// What the instrument of a row would read with these values of the unknowns, mm or rad.
@@ -222,8 +230,7 @@ impl Design {
         let of = readings.instruments[i] as usize;
         let instrument = &self.instruments[of];
         let command = &readings.commands[i];
-        let (approach, motion) = (&readings.approaches[i], &readings.motions[i]);
-        let errors = self.errors_in_motion(command, approach, motion, values)?;
+        let errors = self.errors_in(command, &readings.moment(i), values)?;
         let actual = instrument.tool_seen(&self.machine, command, &errors);
         let nominal = match instrument.sight {
             Sight::Along if instrument.material.is_none() => actual, // it does not ask for it
@@ -242,14 +249,14 @@ impl Design {
         let n = self.unknowns();
         let of = readings.instruments[i] as usize;
         let instrument = &self.instruments[of];
-        let (command, approach) = (&readings.commands[i], &readings.approaches[i]);
+        let command = &readings.commands[i];
         let frames = self.machine.error_frames(command, instrument.reference);
         let nominal = *frames.reference_from_tool();
         let view = View { nominal, actual: nominal, direction: readings.directions[i] };
         let wrenches = instrument.wrenches(&view);
         let channels = instrument.sight.channels();
         out[..channels * n].fill(0.0);
-        let phi = self.functions_at(command, approach, &readings.motions[i]);
+        let phi = self.functions_at(command, &readings.moment(i));
         for (index, run) in &self.runs {
             let twist = frames.twist(*index);
             for (c, wrench) in wrenches.iter().take(channels).enumerate() {

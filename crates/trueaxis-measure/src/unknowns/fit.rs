@@ -305,7 +305,8 @@ impl<'a> Rows<'a> {
             for (r, u) in residual.iter().zip(&instrument.noise).take(channels) {
                 chi_square += self.weight(i) * (r / u).powi(2);
             }
-            numbers += channels;
+            // Rows of weight 0 do not count.
+            numbers += if self.weight(i) > 0.0 { channels } else { 0 };
         }
         (chi_square, numbers)
     }

@@ -4,7 +4,7 @@
 //!     E(q) = Σ c_k φ_k(q)                                                 docs/model.md eq. 106
 //! ```
 
-use crate::instruments::Motion;
+use crate::instruments::{Moment, Motion};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Travel};
 use trueaxis_machine::errors::{
@@ -55,6 +55,15 @@ pub enum Basis {
         /// 1 or −1.
         sense: f64,
     },
+    /// A drift in time: 0 before, growing evenly to 1 while one instrument reads, 1 after.
+    Ramp {
+        /// The instrument whose clock it is.
+        instrument: u32,
+        /// When it begins, s.
+        from_s: f64,
+        /// How long it grows, s.
+        over_s: f64,
+    },
 }
 
 impl Basis {
@@ -68,8 +77,8 @@ impl Basis {
             Self::Hat { at, step } => (1.0 - ((q - at) / step).abs()).max(0.0),
             Self::Reversal => 0.5 * approach,
             Self::LostMotion { sense } => -0.5 * sense * approach,
-            // They say nothing of an axis that stands.
-            Self::Lag { .. } | Self::Friction { .. } => 0.0,
+            // They say nothing of an axis that stands, and nothing without a time.
+            Self::Lag { .. } | Self::Friction { .. } | Self::Ramp { .. } => 0.0,
         }
     }
 
@@ -87,6 +96,18 @@ impl Basis {
                 -sense * m.turned[axis] * (-m.turned_ago_s[axis].max(0.0) / free_s).exp()
             }
             _ => self.value(command[axis], approach[axis]),
+        }
+    }
+
+    /// φ at a reading, at a command of the axis whose position counts.
+    pub fn at(self, command: &[f64; 6], axis: Option<usize>, moment: &Moment) -> f64 {
+        match (self, axis) {
+            (Self::Ramp { instrument, .. }, _) if instrument != moment.instrument => 0.0,
+            (Self::Ramp { from_s, over_s, .. }, _) => {
+                ((moment.time_s - from_s) / over_s).clamp(0.0, 1.0)
+            }
+            (_, Some(axis)) => self.in_motion(command, &moment.approach, axis, &moment.motion),
+            (_, None) => self.value(0.0, 0.0),
         }
     }
 
@@ -146,6 +167,10 @@ impl Term {
             Basis::Lag { .. } => format!("lag {}", error.body),
             Basis::LostMotion { .. } => format!("lost motion {}", error.body),
             Basis::Friction { .. } => format!("friction {}", error.body),
+            Basis::Ramp { instrument, from_s, .. } => {
+                let along = ["x", "y", "z"][error.component as usize % 3];
+                format!("drift {along} {instrument} from {from_s:.0} s")
+            }
         }
     }
 
@@ -316,8 +341,11 @@ pub fn stated(terms: &[(Term, f64)], u: Option<f64>) -> StatedError {
         match term.basis {
             Basis::Constant => constant += c,
             Basis::Reversal => reversal = Some(*c),
-            // Of the servo: no error of the machine file says it.
-            Basis::Lag { .. } | Basis::LostMotion { .. } | Basis::Friction { .. } => {}
+            // Of the servo and of time: no error of the machine file says it.
+            Basis::Lag { .. }
+            | Basis::LostMotion { .. }
+            | Basis::Friction { .. }
+            | Basis::Ramp { .. } => {}
             Basis::Hat { at, .. } => knots.push((at, *c)),
             Basis::Cosine(k) | Basis::Sine(k) => {
                 let order = f64::from(k);

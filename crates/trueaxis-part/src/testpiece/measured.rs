@@ -193,7 +193,7 @@ impl Cone {
         for (section, height_mm) in size.heights_mm.iter().copied().enumerate() {
             let Some(ring) = self.ring(points, &places, section)? else { continue };
             let profile_mm = self.profile_of(&ring, height_mm);
-            let circles = Fitter::default().all(&profile_mm)?;
+            let circles = Fitter::default().all(&profile_mm).map_err(Error::from)?;
             let mut indices_mm = vec![None; INDICES.len()];
             for (i, value) in forms(&ring, &circles) {
                 indices_mm[i] = Some(value);
@@ -344,7 +344,7 @@ impl Cone {
         let round = at(&size.roundness_height_mm).unwrap_or(0);
         if let Some(ring) = &rings[round] {
             let profile = self.profile_of(ring, size.roundness_height_mm);
-            for (i, value) in forms(ring, &Fitter::default().all(&profile)?) {
+            for (i, value) in forms(ring, &Fitter::default().all(&profile).map_err(Error::from)?) {
                 out[i] = Some(value);
             }
         }

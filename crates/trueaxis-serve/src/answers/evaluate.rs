@@ -172,11 +172,17 @@ impl EvaluateRequest {
             standard: standard(&self.standard)?,
             data,
             import: self.import.as_deref().map(import).transpose()?,
+            map: None,
             feature: self.feature,
             conditions: self.conditions.map(in_project).transpose()?,
             radius: self.radius,
             window: self.window,
             write_back: None,
+            machine: None,
+            output: None,
+            tolerances: Vec::new(),
+            tolerance_file: None,
+            is_simple: false,
         })
     }
 }

@@ -130,7 +130,7 @@ fn table(rows: &[Row<'_>], runs: usize, unit: &str) -> String {
         let [first, second] = if row.up { [&half, &empty] } else { [&empty, &half] };
         table.row(row.line, &format!("{},{first},{second}", row.cells[1]));
     }
-    table.text
+    table.into_text()
 }
 
 /// `**A_fwd = 0.02008 [mm]**`.

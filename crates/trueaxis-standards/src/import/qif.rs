@@ -356,7 +356,7 @@ fn flatten(
     let (low, high) =
         heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
     let points: Vec<[f64; 2]> = circle.points_mm.iter().map(|(_, p)| flat(p)).collect();
-    let fitted = trueaxis_part::fit::circle::least_squares(&points);
+    let fitted = trueaxis_form::circle::least_squares(&points);
     let Ok(fitted) = fitted else {
         let message = format!("no circle through the {} points of {}", points.len(), circle.name);
         problems.error("no-circle", place, message, "at least three different points, all around");
@@ -390,8 +390,8 @@ fn flatten(
         let stretch = outward_mm / dx.hypot(dy).max(f64::MIN_POSITIVE);
         table.row(*line, &format!("{},{}", x + dx * stretch, y + dy * stretch));
     }
-    let nominal = Circle { centre_mm: centre, radius_mm: circle.radius_mm };
-    let table = Cow::Owned(table.text);
+    let nominal = Circle { centre_mm: centre, radius_mm: circle.radius_mm, ..Circle::default() };
+    let table = Cow::Owned(table.into_text());
     Some(Imported { table, circle: nominal, of_a_part: true, ..Imported::default() })
 }
 

@@ -47,7 +47,7 @@ pub struct Causes {
 /// Unknowns: radius of ccw and cw, centre, scale, squareness, servo, backlash of both axes.
 const UNKNOWNS: usize = 9;
 
-fn sign(v: f64) -> f64 {
+pub(super) fn sign(v: f64) -> f64 {
     if v == 0.0 { 0.0 } else { v.signum() }
 }
 
@@ -63,14 +63,14 @@ fn row(angle: f64, sense: Sense, both: bool) -> [f64; UNKNOWNS] {
 }
 
 /// How far beyond the last reversal an angle is in the direction of motion, and which reversal.
-fn after_reversal(angle: f64, sense: Sense) -> (f64, usize) {
+pub(super) fn after_reversal(angle: f64, sense: Sense) -> (f64, usize) {
     let turned = (sense.sign() * angle).rem_euclid(TAU);
     let quarter = (turned / FRAC_PI_2).floor();
     (turned - quarter * FRAC_PI_2, quarter as usize % 4)
 }
 
 /// So close to a reversal the noise decides on which side a point lies: half a step of the points.
-fn doubtful_rad(paths: &[PathResult]) -> f64 {
+pub(super) fn doubtful_rad(paths: &[PathResult]) -> f64 {
     let most = paths.iter().map(|p| p.path.points_mm.len()).max().unwrap_or(1);
     (0.5 * TAU / most as f64).min(0.1 * SPIKE_WINDOW_RAD)
 }

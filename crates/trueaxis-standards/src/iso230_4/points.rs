@@ -2,9 +2,9 @@
 
 use crate::conditions::Circle;
 use std::f64::consts::{PI, TAU};
+use trueaxis_form::circle::least_squares;
 use trueaxis_input::sheet::{Cells, Sheet, heading};
 use trueaxis_input::{Diagnostics, Dimension};
-use trueaxis_part::fit::circle::least_squares;
 
 /// The sense of rotation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -101,7 +101,10 @@ pub(super) fn read(
             // G18 looks along +Y: there Z is the first axis of the plane and X the second.
             ([a.to_uppercase(), b.to_uppercase()], points)
         }
-        [] => (["X".to_owned(), "Y".to_owned()], polar(&sheet, nominal, centre_mm, problems)?),
+        [] => {
+            let axes = nominal.plane.unwrap_or(['X', 'Y']).map(|axis| axis.to_string());
+            (axes, polar(&sheet, nominal, centre_mm, problems)?)
+        }
         _ => {
             let message = format!("{} of the columns x, y, z: a circle has two", linear.len());
             let hint = "two of x_mm, y_mm, z_mm, or angle_deg with radius_mm or deviation_um";

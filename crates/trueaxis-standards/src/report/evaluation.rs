@@ -1,7 +1,11 @@
 //! An evaluation as a report.
 
-use super::{evaluation_circular, evaluation_others, evaluation_positioning};
+use super::{
+    decisions, evaluation_circular, evaluation_geometric, evaluation_others,
+    evaluation_positioning, evaluation_probing,
+};
 use crate::conditions::Conditions;
+use crate::judge::Judged;
 use crate::{Evaluated, Standard};
 use trueaxis_report::{Picture, Report, Section, Table};
 
@@ -17,6 +21,8 @@ pub struct Evaluation<'a> {
     pub evaluated: &'a Evaluated,
     /// Warnings and notes, each as one text.
     pub remarks: &'a [String],
+    /// Figures against their tolerances.
+    pub judged: &'a [Judged],
 }
 
 /// The tables and pictures of an evaluation, each table with its title.
@@ -32,15 +38,19 @@ pub struct Contents {
 impl Evaluation<'_> {
     /// Tables and pictures.
     pub fn contents(&self) -> Contents {
-        match self.evaluated {
+        let mut contents = match self.evaluated {
             Evaluated::Positioning(measurement, result) => {
                 evaluation_positioning::contents(self.standard, measurement, result)
             }
+            Evaluated::Geometric(test) => evaluation_geometric::contents(test),
             Evaluated::Circular(circle) => evaluation_circular::contents(circle),
             Evaluated::Drift(drift) => evaluation_others::drift(drift),
             Evaluated::Diagonals(d) => evaluation_others::diagonals(d),
             Evaluated::Rotation(r) => evaluation_others::rotation(r),
-        }
+            Evaluated::Probing(p) => evaluation_probing::contents(p),
+        };
+        contents.results.splice(0..0, decisions::table(self.judged));
+        contents
     }
 
     /// Machine, axis, instrument, date, temperature, where known.
@@ -68,10 +78,14 @@ pub fn evaluation_report(evaluation: &Evaluation<'_>) -> Report<'static> {
     let Contents { results, pictures, details } = evaluation.contents();
     let section = |(title, table): (String, Table)| Section::new(title).table(table);
     let remarks = Section::new("Remarks on the readings").on_page();
-    Report::new(evaluation.conditions.name.as_deref().unwrap_or(evaluation.file))
+    let head = Report::new(evaluation.conditions.name.as_deref().unwrap_or(evaluation.file))
         .line(evaluation.standard.title())
-        .line(evaluation.circumstances())
-        .sections(results.into_iter().map(section))
+        .line(evaluation.circumstances());
+    let head = match decisions::verdict(evaluation.judged) {
+        Some((standing, word, sentence)) => head.verdict(standing, word, sentence),
+        None => head,
+    };
+    head.sections(results.into_iter().map(section))
         .sections(pictures.into_iter().map(Section::from))
         .section(remarks.list(evaluation.remarks.iter().cloned()))
         .sections(details.into_iter().map(section))

@@ -8,6 +8,9 @@ const UM: f64 = 1e3;
 
 pub(super) fn contents(c: &Circular) -> Contents {
     let mut results = vec![("Results of the test".to_owned(), deviations(c))];
+    let diagnosis = c.diagnosis.as_ref();
+    let title = "Diagnosis: what makes the circle deviate, the largest share first";
+    results.extend(diagnosis.map(|found| (title.to_owned(), super::diagnosis::table(c, found))));
     let causes = c.causes.as_ref();
     results
         .extend(causes.map(|found| ("Causes of the deviations".to_owned(), causes_of(c, found))));

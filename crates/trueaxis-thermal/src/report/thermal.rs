@@ -1,7 +1,8 @@
 //! A thermal model in text and on a page.
 
 use super::thermal_pictures::{cycle_picture, scores_picture};
-use crate::thermal::{Logs, Score, ThermalModel, Zero};
+use super::thermal_score::{score_section as later_section, sentence};
+use crate::thermal::{Logs, Score, Scoring, ThermalModel, Zero};
 use std::fmt::Write as _;
 use trueaxis_machine::errors::ErrorName;
 use trueaxis_report::{Columns, Figure, Report, Section, Standing, Table};
@@ -50,9 +51,6 @@ fn key(name: &str) -> String {
 
 /// What the model is worth, in one sentence.
 fn verdict(model: &ThermalModel) -> String {
-    if let Some(refusal) = &model.refusal {
-        return refusal.clone();
-    }
     let score = model.score();
     format!(
         "{} of the mean square drift of cycles that it has not seen: {:.2} µm without a model, \
@@ -113,11 +111,17 @@ fn u_of_root(score: &Score) -> f64 {
 }
 
 /// The model in text and on a page.
-pub fn thermal_report<'a>(logs: &'a Logs, model: &'a ThermalModel) -> Report<'a> {
+pub fn thermal_report<'a>(
+    logs: &'a Logs,
+    model: &'a ThermalModel,
+    scoring: Option<&'a Scoring>,
+) -> Report<'a> {
     let rows: usize = logs.cycles.iter().map(|c| c.displacement_mm.len()).sum();
-    let (standing, word) = match model.refusal.is_some() {
-        true => (Standing::Bad, "no model"),
-        false => (Standing::Good, "MODEL"),
+    let (standing, word, said) = match (&model.refusal, scoring) {
+        (Some(refusal), _) => (Standing::Bad, "no model", refusal.clone()),
+        (None, None) => (Standing::Good, "MODEL", verdict(model)),
+        (None, Some(s)) if s.as_promised() => (Standing::Good, "AS PROMISED", sentence(s)),
+        (None, Some(s)) => (Standing::Bad, "WORSE THAN PROMISED", sentence(s)),
     };
     let lines = match thermal_lines(logs, model) {
         Ok(lines) => Section::new("In the machine file").code(lines),
@@ -130,7 +134,8 @@ pub fn thermal_report<'a>(logs: &'a Logs, model: &'a ThermalModel) -> Report<'a>
             logs.cycles.len(),
             zero(logs)
         ))
-        .verdict(standing, word, verdict(model))
+        .verdict(standing, word, said)
+        .sections(scoring.map(|s| later_section(logs, s)))
         .section(score_section(logs, model))
         .section(
             Section::new("More terms: better on what is known, not on what comes")

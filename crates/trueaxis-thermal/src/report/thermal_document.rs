@@ -1,6 +1,7 @@
 //! A thermal model for programs: `trueaxis/identify/1` with `what` = `thermal`.
 
-use crate::thermal::{Coefficient, Logs, Score, Term, ThermalModel};
+use super::thermal_score::ScoringEntry;
+use crate::thermal::{Coefficient, Logs, Score, Scoring, Term, ThermalModel};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -61,6 +62,8 @@ pub struct ThermalDocument<'a> {
     pub no_machine_file_because: Option<&'a str>,
     /// What to observe when the model is used.
     pub warnings: &'a [String],
+    /// How later logs agree with it; null without later logs.
+    pub later: Option<ScoringEntry<'a>>,
 }
 
 /// A coefficient.
@@ -124,7 +127,12 @@ pub struct CycleEntry<'a> {
 
 impl<'a> ThermalDocument<'a> {
     /// The document of a model; `lines` are those of the report.
-    pub fn of(logs: &'a Logs, model: &'a ThermalModel, lines: &'a Result<String, String>) -> Self {
+    pub fn of(
+        logs: &'a Logs,
+        model: &'a ThermalModel,
+        lines: &'a Result<String, String>,
+        scoring: Option<&'a Scoring>,
+    ) -> Self {
         let (none, chosen) = (&model.scores[0], model.score());
         let cycles = logs.cycles.iter().enumerate().map(|(g, cycle)| CycleEntry {
             name: &cycle.name,
@@ -159,6 +167,7 @@ impl<'a> ThermalDocument<'a> {
             machine_file: lines.as_deref().ok(),
             no_machine_file_because: lines.as_ref().err().map(String::as_str),
             warnings: &model.warnings,
+            later: scoring.map(|s| ScoringEntry::of(logs, s)),
         }
     }
 }

@@ -124,6 +124,19 @@ pub fn check_cycles(logs: &Logs, problems: &mut Diagnostics) {
     }
 }
 
+/// A later log must not be one of those that the model comes from.
+pub fn check_later(later: &Cycle, logs: &Logs, file: &str, problems: &mut Diagnostics) {
+    let same = |c: &&Cycle| {
+        c.displacement_mm == later.displacement_mm
+            && c.temperatures_celsius == later.temperatures_celsius
+    };
+    if let Some(copy) = logs.cycles.iter().chain(&logs.later).find(same) {
+        let message = format!("it has the same readings as `{}`", copy.name);
+        let hint = "a score of readings that the model comes from promises what it knows already";
+        problems.error("duplicate-cycle", Place::whole(file), message, hint);
+    }
+}
+
 fn spread(values: &[f64]) -> f64 {
     let (low, high) =
         values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));

@@ -80,7 +80,8 @@ pub struct Fit {
     inverse: DMatrix<f64>,
     /// How much of one row the common zero takes.
     zero_share: f64,
-    x_mean: DVector<f64>,
+    /// Taken out of the columns for one zero of all cycles, K.
+    pub x_mean: DVector<f64>,
     y_mean: f64,
 }
 
@@ -148,20 +149,47 @@ impl Design {
         Training { gram, right, lengths, rows, x_mean, y_mean, one_zero }
     }
 
+    /// XᵀX/n of some columns over all cycles but one, and what was taken out of them for one zero of all, K.
+    pub fn second_moments(
+        &self,
+        without: Option<usize>,
+        columns: &[usize],
+    ) -> (DMatrix<f64>, DVector<f64>) {
+        let all = self.train(without);
+        let gram = DMatrix::from_fn(columns.len(), columns.len(), |i, k| {
+            all.gram[(columns[i], columns[k])] / all.rows
+        });
+        (gram, DVector::from_iterator(columns.len(), columns.iter().map(|j| all.x_mean[*j])))
+    }
+
+    /// The rows of some columns of a cycle, less `mean`, K.
+    pub fn rows(&self, cycle: usize, columns: &[usize], mean: &DVector<f64>) -> Vec<DVector<f64>> {
+        self.blocks[cycle].rows(columns, mean)
+    }
+
+    /// A fit of all cycles on some terms.
+    pub fn fit_of_terms(&self, terms: &[Term]) -> Fit {
+        let place = |t: &Term| self.terms.iter().position(|own| own == t);
+        self.train(None).fit(&terms.iter().filter_map(place).collect::<Vec<_>>())
+    }
+
+    /// The columns of a log that is not among the cycles.
+    pub fn sample(&self, log: &super::Cycle) -> Sample {
+        let columns: Vec<Vec<f64>> = self.terms.iter().map(|t| column(log, t)).collect();
+        let y = DVector::from_column_slice(&log.displacement_mm).add_scalar(-self.centre_mm);
+        let x =
+            DMatrix::from_fn(y.len(), columns.len(), |i, j| columns[j][i] - self.centre_celsius[j]);
+        Sample(Block::new(x, y, self.zero))
+    }
+
     /// What a fit predicts for a cycle, in the zero of [`Design::measured`], mm.
     pub fn predict(&self, cycle: usize, fit: &Fit) -> Vec<f64> {
-        let x = &self.blocks[cycle].x;
-        let row = |i: usize| {
-            let terms = fit.subset.iter().enumerate();
-            let sum: f64 = terms.map(|(k, j)| fit.mm_per_k[k] * (x[(i, *j)] - fit.x_mean[k])).sum();
-            fit.y_mean + sum
-        };
-        (0..x.nrows()).map(row).collect()
+        self.blocks[cycle].predict(fit)
     }
 
     /// What was measured in a cycle, less its zero, mm.
     pub fn measured(&self, cycle: usize) -> Vec<f64> {
-        self.blocks[cycle].y.iter().copied().collect()
+        self.blocks[cycle].y.as_slice().to_vec()
     }
 
     /// Measured less predicted, mm; a first row that is zero by definition is no reading.
@@ -239,6 +267,43 @@ impl Block {
             y.add_scalar_mut(-y_zero);
         }
         Self { gram: x.tr_mul(&x), right: x.tr_mul(&y), sums: x.row_sum_tr(), x, y }
+    }
+
+    fn predict(&self, fit: &Fit) -> Vec<f64> {
+        let row = |i: usize| {
+            let terms = fit.subset.iter().enumerate();
+            let of = |(k, j): (usize, &usize)| fit.mm_per_k[k] * (self.x[(i, *j)] - fit.x_mean[k]);
+            fit.y_mean + terms.map(of).sum::<f64>()
+        };
+        (0..self.x.nrows()).map(row).collect()
+    }
+
+    fn rows(&self, columns: &[usize], mean: &DVector<f64>) -> Vec<DVector<f64>> {
+        let row = |i: usize| {
+            let values = columns.iter().enumerate().map(|(k, j)| self.x[(i, *j)] - mean[k]);
+            DVector::from_iterator(columns.len(), values)
+        };
+        (0..self.x.nrows()).map(row).collect()
+    }
+}
+
+/// A log that is not among the cycles, with the columns of their design.
+pub struct Sample(Block);
+
+impl Sample {
+    /// The rows of some columns, less `mean`, K.
+    pub fn rows(&self, columns: &[usize], mean: &DVector<f64>) -> Vec<DVector<f64>> {
+        self.0.rows(columns, mean)
+    }
+
+    /// What was measured, less its zero, mm.
+    pub fn measured(&self) -> Vec<f64> {
+        self.0.y.as_slice().to_vec()
+    }
+
+    /// What a fit predicts, in the same zero, mm.
+    pub fn predict(&self, fit: &Fit) -> Vec<f64> {
+        self.0.predict(fit)
     }
 }
 

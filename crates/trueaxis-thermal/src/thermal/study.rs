@@ -1,10 +1,10 @@
 //! A study of a thermal model and its logs, read and checked.
 
-use super::check::{check_cycle, check_cycles};
+use super::check::{check_cycle, check_cycles, check_later};
 use super::subsets::combinations;
 use super::{Cycle, Logs, Zero};
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use trueaxis_input::{
     CsvColumn, CsvTable, Diagnostics, Dimension, Files, Item, Place, Section, SourceText, Unit,
 };
@@ -28,6 +28,11 @@ const MOST_FILES: usize = 1000;
 /// A log that cannot be used is an error, not left out: a model of the other cycles would be
 /// another answer.
 pub fn read_logs(files: &Files, path: &Path) -> (Option<Logs>, Diagnostics) {
+    read_logs_and(files, path, &[])
+}
+
+/// The same with logs that came later, beside those of `[score]`.
+pub fn read_logs_and(files: &Files, path: &Path, later: &[PathBuf]) -> (Option<Logs>, Diagnostics) {
     let mut problems = Diagnostics::new();
     let Some(text) = files.text(path, "a study of a thermal model (TOML)", &mut problems) else {
         return (None, problems);
@@ -37,11 +42,18 @@ pub fn read_logs(files: &Files, path: &Path) -> (Option<Logs>, Diagnostics) {
         files.text(&beside(name), "a log of displacement and temperatures (CSV)", problems)
     };
     let show = |name: &str| beside(name).display().to_string();
-    let logs = problems.keep(parse_logs(
-        &path.display().to_string(),
-        &text,
-        &Tables { load: &load, show: &show },
-    ));
+    let tables = Tables { load: &load, show: &show };
+    let load = |name: &str, problems: &mut Diagnostics| {
+        files.text(Path::new(name), "a log of displacement and temperatures (CSV)", problems)
+    };
+    let later: Vec<String> = later.iter().map(|p| p.display().to_string()).collect();
+    let asked = Later { names: &later, tables: Tables { load: &load, show: &str::to_owned } };
+    let shown = path.display().to_string();
+    let source = SourceText::new(&shown, &text);
+    let logs = source.read(|root| read(root, &tables, Some(&asked)));
+    let found = source.finish();
+    let logs = logs.filter(|_| !found.has_errors());
+    problems.append(found);
     (logs, problems)
 }
 
@@ -53,10 +65,18 @@ pub struct Tables<'a> {
     pub show: &'a dyn Fn(&str) -> String,
 }
 
+/// Later logs that are named beside the study.
+pub struct Later<'a> {
+    /// Their names.
+    pub names: &'a [String],
+    /// Where they come from.
+    pub tables: Tables<'a>,
+}
+
 /// The same for a text and logs that need not lie on a disk.
 pub fn parse_logs(file: &str, text: &str, tables: &Tables<'_>) -> (Option<Logs>, Diagnostics) {
     let source = SourceText::new(file, text);
-    let logs = source.read(|root| read(root, tables));
+    let logs = source.read(|root| read(root, tables, None));
     let problems = source.finish();
     (logs.filter(|_| !problems.has_errors()), problems)
 }
@@ -71,11 +91,13 @@ struct Columns {
     interval_s: Option<f64>,
 }
 
-fn read(root: &Section<'_>, tables: &Tables<'_>) -> Option<Logs> {
+fn read(root: &Section<'_>, tables: &Tables<'_>, later: Option<&Later<'_>>) -> Option<Logs> {
     // Every key is asked for before anything is given up, or it would count as unknown.
     let name = root.require("name", "say what drifts").and_then(|i| i.text());
     root.text("source");
-    let files = read_files(root);
+    let files = root.require("files", "files = [\"monday.csv\", \"tuesday.csv\"]");
+    let files = files.and_then(|item| read_files(&item));
+    let scored = read_score(root);
     let displacement = root
         .require("displacement", "[displacement] column = \"drift_um\", error = \"EZ0t\"")
         .and_then(|item| item.section("displacement", read_displacement));
@@ -98,13 +120,49 @@ fn read(root: &Section<'_>, tables: &Tables<'_>) -> Option<Logs> {
         error: error?,
         sensors: columns.sensors.iter().map(|s| s.0.clone()).collect(),
         cycles: Vec::new(),
+        later: Vec::new(),
         zero: zero?,
         lags_s,
         most_terms: most_terms?,
         reference_celsius: reference.unwrap_or(REFERENCE_CELSIUS),
         repeatability_mm,
     };
-    Some(read_cycles(root, tables, &files?, &columns, logs))
+    let mut logs = read_cycles(root, tables, &files?, &columns, logs);
+    read_later(root, tables, &scored, &columns, &mut logs);
+    if let Some(later) = later {
+        read_later(root, &later.tables, later.names, &columns, &mut logs);
+    }
+    Some(logs)
+}
+
+/// The logs of `[score]`.
+fn read_score(root: &Section<'_>) -> Vec<String> {
+    let of = |section: &Section<'_>| {
+        let item = section.require("files", "files = [\"next-week.csv\"]")?;
+        read_files(&item)
+    };
+    root.section("score", of).flatten().unwrap_or_default()
+}
+
+/// Logs that the model does not see.
+fn read_later(
+    root: &Section<'_>,
+    tables: &Tables<'_>,
+    files: &[String],
+    columns: &Columns,
+    logs: &mut Logs,
+) {
+    let mut problems = Diagnostics::new();
+    for file in files {
+        let known = std::mem::take(&mut logs.cycles);
+        read_file(file, tables, columns, logs, &mut problems);
+        let found = std::mem::replace(&mut logs.cycles, known);
+        for later in &found {
+            check_later(later, logs, &(tables.show)(file), &mut problems);
+        }
+        logs.later.extend(found);
+    }
+    root.take_over(problems);
 }
 
 /// The same study with its cycles.
@@ -136,8 +194,7 @@ fn read_cycles(
     logs
 }
 
-fn read_files(root: &Section<'_>) -> Option<Vec<String>> {
-    let item = root.require("files", "files = [\"monday.csv\", \"tuesday.csv\"]")?;
+fn read_files(item: &Item<'_>) -> Option<Vec<String>> {
     let list = item.list()?;
     if list.is_empty() || list.len() > MOST_FILES {
         let message = format!("{} logs are named", list.len());

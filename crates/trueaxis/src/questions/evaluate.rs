@@ -6,12 +6,17 @@ use crate::report;
 use crate::verify::write_back::{FIRST_LINE, write_back};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
+use trueaxis_condition::ball_bar::{BallBar, MachineErrors};
+use trueaxis_condition::report::{EvaluatedDocument, MachineErrorsEntry, machine_errors_sections};
+use trueaxis_input::foreign::{self, Mapping, read_mapping};
 use trueaxis_input::{Diagnostics, Dimension, Files, Place, parse_quantity};
 use trueaxis_machine::Machine;
 use trueaxis_machine::describe::axis_index;
+use trueaxis_machine::file::Folder;
 use trueaxis_report::Report;
 use trueaxis_standards::conditions::{Conditions, read_conditions};
 use trueaxis_standards::import::Import;
+use trueaxis_standards::judge::{Decision, Judged, figures, judge, overall, tolerances};
 use trueaxis_standards::report::Evaluation;
 use trueaxis_standards::{Evaluated, Readings, Standard, evaluate_text, iso230_3};
 
@@ -26,6 +31,8 @@ pub struct Evaluate {
     pub import: Option<Import>,
     /// Which feature of a QIF file: its name or its id.
     pub feature: Option<String>,
+    /// The mapping file: which column is what; `NAME.map.toml` beside `NAME.csv` if none is named.
+    pub map: Option<PathBuf>,
     /// Instrument, temperature, nominal circle; the TOML file beside the data if none is named.
     pub conditions: Option<PathBuf>,
     /// Radius of the nominal circle instead of that of the conditions, as typed, with its unit.
@@ -34,6 +41,16 @@ pub struct Evaluate {
     pub window: Option<String>,
     /// The machine file and the axis beside which the error motion goes as a table.
     pub write_back: Option<(PathBuf, String)>,
+    /// The machine file whose errors a circle states.
+    pub machine: Option<PathBuf>,
+    /// Where the machine file with these errors goes.
+    pub output: Option<PathBuf>,
+    /// Tolerances as typed: `A=10 um`.
+    pub tolerances: Vec<String>,
+    /// A file of tolerances.
+    pub tolerance_file: Option<PathBuf>,
+    /// Whether a value alone decides, without U.
+    pub is_simple: bool,
 }
 
 /// Where readings come from.
@@ -45,15 +62,34 @@ pub enum ReadingsFile {
     Text(String, String),
 }
 
+impl ReadingsFile {
+    /// The name and the text; `kind` is what the file is expected to be.
+    pub(super) fn text(
+        &self,
+        files: &Files,
+        kind: &str,
+        problems: &mut Diagnostics,
+    ) -> (String, Option<String>) {
+        match self {
+            Self::Path(path) => (path.display().to_string(), files.text(path, kind, problems)),
+            Self::Text(name, text) => (name.clone(), Some(text.clone())),
+        }
+    }
+}
+
 /// What is known for an evaluation.
 #[derive(Debug)]
 pub struct EvaluateInput {
     name: String,
     text: String,
+    mapping: Option<Mapping>,
     conditions: Conditions,
     conditions_file: Option<PathBuf>,
     window_s: f64,
     machine: Option<(PathBuf, Machine, usize)>,
+    /// The machine of a circle with its text.
+    circle_on: Option<(PathBuf, Machine, String)>,
+    files: Files,
 }
 
 /// Readings with their result.
@@ -71,7 +107,11 @@ pub struct EvaluateAnswer {
     pub evaluated: Evaluated,
     /// Warnings and notes, each as one text.
     pub remarks: Vec<String>,
+    /// Figures against their tolerances.
+    pub judged: Vec<Judged>,
     table: Option<Table>,
+    machine_errors: Option<MachineErrors>,
+    machine_files: Vec<NewFile>,
 }
 
 impl EvaluateAnswer {
@@ -83,6 +123,15 @@ impl EvaluateAnswer {
             conditions: &self.conditions,
             evaluated: &self.evaluated,
             remarks: &self.remarks,
+            judged: &self.judged,
+        }
+    }
+
+    /// The two axes of a circle.
+    fn circle_axes(&self) -> Option<(&MachineErrors, &[String; 2])> {
+        match (&self.machine_errors, &self.evaluated) {
+            (Some(found), Evaluated::Circular(circle)) => Some((found, &circle.axes)),
+            _ => None,
         }
     }
 }
@@ -111,6 +160,13 @@ impl Evaluate {
         let beside = self.path().with_extension("toml");
         let is_there = matches!(self.data, ReadingsFile::Path(_)) && files.is_file(&beside);
         self.conditions.clone().or(is_there.then_some(beside))
+    }
+
+    /// Beside an uploaded text there are no files.
+    fn mapping(&self, files: &Files, problems: &mut Diagnostics) -> Option<Mapping> {
+        let is_file = matches!(self.data, ReadingsFile::Path(_));
+        let path = if is_file { self.path() } else { Path::new("") };
+        read_mapping(files, self.map.as_deref(), path, problems)
     }
 
     /// The axis that the table is for.
@@ -163,6 +219,74 @@ impl Evaluate {
     }
 }
 
+impl Evaluate {
+    /// The machine of a circle, with the text of its file.
+    fn circle_on(
+        &self,
+        files: &Files,
+        problems: &mut Diagnostics,
+    ) -> Option<(PathBuf, Machine, String)> {
+        if self.output.is_some() && self.machine.is_none() {
+            let message = "there is no machine file to write errors into".to_owned();
+            problems.error(
+                "missing-machine",
+                Place::whole("-o"),
+                message,
+                "--machine MACHINE.toml",
+            );
+        }
+        let path = self.machine.as_ref()?;
+        if self.standard != Standard::Iso230_4 {
+            let message = "only a circle states errors of a machine file".to_owned();
+            let hint = "iso230-4; a positioning test: --write-back MACHINE.toml AXIS";
+            problems.error("unused-argument", Place::whole("--machine"), message, hint);
+            return None;
+        }
+        let machine = problems.keep(Machine::read(files, path))?;
+        let text = files.text(path, "a machine file (TOML)", problems)?;
+        Some((path.clone(), machine, text))
+    }
+
+    /// The errors of the machine file that a circle states, and the files with them.
+    fn machine_errors(
+        &self,
+        input: &EvaluateInput,
+        (conditions, conditions_file): (&Conditions, &Path),
+        evaluated: &Evaluated,
+        problems: &mut Diagnostics,
+    ) -> Option<(MachineErrors, Vec<NewFile>)> {
+        let (path, machine, text) = input.circle_on.as_ref()?;
+        let Evaluated::Circular(circle) = evaluated else { return None };
+        let place = Place::whole(&conditions_file.display().to_string());
+        let bar = BallBar::on(machine, circle, conditions, &place, problems)?;
+        let output = self.output.as_ref().unwrap_or(path);
+        let date = conditions.date.as_ref().map(|d| format!(", {d}")).unwrap_or_default();
+        let origin = format!("ball-bar {}{date}", input.name).replace(['\n', '\r'], " ");
+        let beside = Folder::of(&input.files, output);
+        let found = bar.machine_errors(machine, (text, &beside), &origin);
+        let refuse = |reason: String| {
+            let message = format!("the errors cannot be written: {reason}");
+            let hint = "put the new file beside the machine file if that names tables";
+            problems.error(
+                "unwritable-file",
+                Place::whole(&output.display().to_string()),
+                message,
+                hint,
+            );
+        };
+        let found = found.map_err(refuse).ok()?;
+        let mut new = Vec::new();
+        if let Some(output) = &self.output {
+            let table = |(name, text): &(String, String)| {
+                NewFile::kept("table", output.with_file_name(name), text.clone())
+            };
+            new.extend(found.tables.iter().map(table));
+            new.push(NewFile::kept("machine file", output, found.text.clone()));
+        }
+        Some((found, new))
+    }
+}
+
 impl Question for Evaluate {
     type Input = EvaluateInput;
     type Answer = EvaluateAnswer;
@@ -177,16 +301,29 @@ impl Question for Evaluate {
             Some(text) => positive("--window", text, Dimension::Time, problems),
             None => Some(iso230_3::HOUR_S),
         };
+        let mapping = self.mapping(files, problems);
         let (name, text) = match &self.data {
             ReadingsFile::Path(path) => {
-                let text = files.text(path, "a table of readings (CSV)", problems);
+                let what = "a table of readings (CSV)";
+                let text = foreign::text(files, path, what, mapping.as_ref(), problems);
                 (path.display().to_string(), text)
             }
             ReadingsFile::Text(name, text) => (name.clone(), Some(text.clone())),
         };
         let machine = self.machine(problems, files);
+        let (circle_on, files) = (self.circle_on(files, problems), files.clone());
         let (text, window_s) = (text?, window_s.unwrap_or(iso230_3::HOUR_S));
-        Some(EvaluateInput { name, text, conditions, conditions_file, window_s, machine })
+        Some(EvaluateInput {
+            name,
+            text,
+            mapping,
+            conditions,
+            conditions_file,
+            window_s,
+            machine,
+            circle_on,
+            files,
+        })
     }
 
     fn answer(
@@ -203,6 +340,7 @@ impl Question for Evaluate {
             text: &input.text,
             import: self.import.unwrap_or_else(|| Import::of(self.path())),
             feature: self.feature.as_deref(),
+            mapping: input.mapping.as_ref(),
             conditions: &input.conditions,
             conditions_file: &conditions_file.display().to_string(),
             window_s: input.window_s,
@@ -210,6 +348,14 @@ impl Question for Evaluate {
         let (evaluated, conditions) = evaluate_text(&readings, problems);
         let evaluated = evaluated?;
         let table = self.table(&input, &conditions, &evaluated, problems);
+        let stated = (&conditions, &*conditions_file);
+        let found = self.machine_errors(&input, stated, &evaluated, problems);
+        let (machine_errors, machine_files) =
+            found.map_or((None, Vec::new()), |(f, n)| (Some(f), n));
+        let (file, axis) = (self.tolerance_file.as_deref(), conditions.axis.as_deref());
+        let tolerances = tolerances(&self.tolerances, file, &input.files, axis, problems);
+        let figures = figures(&evaluated, &conditions);
+        let judged = judge(&figures, &tolerances, !self.is_simple, problems);
         let remarks = report::remarks(problems);
         let (name, conditions_file) = (std::mem::take(&mut input.name), input.conditions_file);
         let standard = self.standard;
@@ -220,13 +366,16 @@ impl Question for Evaluate {
             conditions_file,
             evaluated,
             remarks,
+            judged,
             table,
+            machine_errors,
+            machine_files,
         })
     }
 }
 
 /// A positive quantity of an argument.
-fn positive(
+pub(super) fn positive(
     name: &str,
     text: &str,
     dimension: Dimension,
@@ -243,15 +392,28 @@ fn positive(
 
 impl Answer for EvaluateAnswer {
     fn document(&self, problems: &Diagnostics) -> Value {
-        with_diagnostics(&report::EvaluationDocument::of(&self.shown()), problems)
+        let document = EvaluatedDocument {
+            document: report::EvaluationDocument::of(&self.shown()),
+            machine_errors: self.circle_axes().map(|(f, axes)| MachineErrorsEntry::of(f, axes)),
+        };
+        with_diagnostics(&document, problems)
     }
 
     fn report(&self) -> Report<'_> {
-        report::evaluation_report(&self.shown())
+        let report = report::evaluation_report(&self.shown());
+        let sections = self.circle_axes().map(|(f, axes)| machine_errors_sections(f, axes));
+        report.sections(sections.into_iter().flatten())
+    }
+
+    fn is_yes(&self) -> bool {
+        let tolerances =
+            overall(&self.judged).is_none_or(|decision| decision == Decision::Conforming);
+        tolerances && self.evaluated.is_yes()
     }
 
     fn files(&mut self) -> Vec<NewFile> {
-        self.table.iter_mut().filter_map(|table| table.file.take()).collect()
+        let table = self.table.iter_mut().filter_map(|table| table.file.take());
+        table.chain(std::mem::take(&mut self.machine_files)).collect()
     }
 
     fn notes(&self) -> Vec<String> {

@@ -5,15 +5,15 @@ use crate::files::output::may_write_machine;
 use crate::report;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use trueaxis_calibrate::identify::rtcp::forecast::{Forecast, forecast};
-use trueaxis_calibrate::identify::rtcp::{
-    Calibration, Purpose, RtcpStudy, calibrate, machine_file, place_of, read_rtcp,
-};
-use trueaxis_calibrate::report::RtcpReport;
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_machine::file::Folder;
 use trueaxis_measure::unknowns::fit::FitError;
 use trueaxis_report::Report;
+use trueaxis_rtcp::report::RtcpReport;
+use trueaxis_rtcp::rtcp::forecast::{Forecast, forecast};
+use trueaxis_rtcp::rtcp::{
+    Calibration, Purpose, RtcpStudy, calibrate, machine_file, place_of, read_rtcp,
+};
 
 /// The rotary centres for RTCP, from indicator or probe readings at turned poses.
 #[derive(Debug, Clone, Default)]

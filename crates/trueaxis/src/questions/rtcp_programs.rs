@@ -5,12 +5,12 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 use std::path::PathBuf;
-use trueaxis_calibrate::identify::rtcp::program::{off_poses, program};
-use trueaxis_calibrate::identify::rtcp::{Purpose, RtcpStudy, read_rtcp};
 use trueaxis_calibrate::plan::{extension, file_name};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_nc::Control;
 use trueaxis_report::{Report, Section, Table, document};
+use trueaxis_rtcp::rtcp::program::{off_poses, program};
+use trueaxis_rtcp::rtcp::{Purpose, RtcpStudy, read_rtcp};
 
 /// One NC program for each set of readings of an RTCP study.
 #[derive(Debug, Clone)]

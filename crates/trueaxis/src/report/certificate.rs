@@ -60,11 +60,16 @@ pub fn certificate_report<'a>(study: &'a Study, certificate: &'a Certificate) ->
         topic(study, certificate, Section::new(format!("{}. {title}", i + 1)))
     });
     let word = word(certificate.outcome).to_uppercase();
+    let head = study.head.as_ref().map(|head| {
+        let (lines, instruments) = head.shown();
+        paragraphs(Section::new("Certificate"), lines).table(instruments)
+    });
     Report::new(&study.name)
         .line(
             "Certificate of a volumetric compensation, in the order of the topics of ISO/TR 16907",
         )
         .verdict(standing(certificate.outcome), word, &certificate.reason)
+        .sections(head)
         .sections(sections)
 }
 

@@ -9,6 +9,7 @@ use crate::verify::certificate::{
 };
 use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis_condition::certificate_head::CertificateHead;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Travel;
@@ -29,6 +30,8 @@ pub struct CertificateDocument<'a> {
     pub verdict: &'static str,
     /// The reason in one sentence.
     pub reason: &'a str,
+    /// Number, customer, place, instruments with their certificates; null where they are not stated.
+    pub certificate: Option<&'a CertificateHead>,
     /// The machine.
     pub machine: MachineEntry<'a>,
     /// Its identified errors.
@@ -300,6 +303,7 @@ impl<'a> CertificateDocument<'a> {
             name: &study.name,
             verdict: word(certificate.outcome),
             reason: &certificate.reason,
+            certificate: study.head.as_ref(),
             machine: MachineEntry { name: machine.name(), chain: machine.chain_text() },
             errors: error_entries(machine),
             determination: DeterminationEntry {

@@ -47,6 +47,7 @@ fn made(noise: &mut Noise, cycles: usize, sensors: usize) -> Logs {
         error: "EZ0t".to_owned(),
         sensors: (0..sensors).map(|i| format!("s{i}")).collect(),
         cycles: (0..cycles).map(|g| cycle(g, noise)).collect(),
+        later: Vec::new(),
         zero: Zero::Cycle,
         lags_s: Vec::new(),
         most_terms: 3,

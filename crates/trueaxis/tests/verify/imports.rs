@@ -5,7 +5,7 @@ use std::path::Path;
 use trueaxis::input::Diagnostics;
 use trueaxis::part::fit::circle::minimum_zone;
 use trueaxis::verify::conditions::Conditions;
-use trueaxis::verify::import::Import;
+use trueaxis::verify::import::{From, Import};
 use trueaxis::verify::{Evaluated, Request, Standard, evaluate};
 
 /// The evaluation, with the codes of what was reported.
@@ -17,7 +17,8 @@ fn evaluated(
     let text = std::fs::read_to_string(path).expect("a readable file");
     let mut problems = Diagnostics::new();
     let import = Import::of(path);
-    let read = import.read(standard, "f", &text, feature, &mut problems)?;
+    let from = From { standard, file: "f", text: &text, feature, mapping: None };
+    let read = import.read(&from, &mut problems)?;
     let conditions = read.conditions(&Conditions::default());
     let request = Request {
         standard,

@@ -155,7 +155,7 @@ pub(super) fn read_spread(
 ) -> Option<Readings> {
     let random = section.text("kind") == Some("random");
     let own = &campaign.instruments[instrument];
-    let follows = matches!(own.kind, Kind::ProbeBall | Kind::BallBar);
+    let follows = matches!(own.kind, Kind::ProbeBall | Kind::BallBar | Kind::BallCentre);
     let placing = match follows {
         true => Some(Placing::for_path(section, campaign, instrument)?),
         false => None,

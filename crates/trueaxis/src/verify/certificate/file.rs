@@ -9,6 +9,7 @@ use super::used::{UsedPose, read_used};
 use super::validation::{AllowedPoses, Validation, read_validation};
 use super::{UncertaintySource, identified};
 use std::path::Path;
+use trueaxis_condition::certificate_head::{CertificateHead, read_head};
 use trueaxis_correct::compensate::not_twice;
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, MeasuredValue, Section, SourceText};
 use trueaxis_machine::Machine;
@@ -21,6 +22,8 @@ use trueaxis_standards::conditions::SOUND_TEMPERATURES_C;
 pub struct Study {
     /// Its name.
     pub name: String,
+    /// Number, customer, place, instruments; from `[certificate]`.
+    pub head: Option<CertificateHead>,
     /// The identified machine without the errors that the control compensates already.
     pub machine: Machine,
     /// How its errors were found.
@@ -114,6 +117,7 @@ fn read(root: &Section<'_>, folder: &Path, mut inputs: Inputs) -> Option<Study> 
         machine
     });
     let sections = SECTIONS.map(|(key, hint)| root.require(key, hint));
+    let head = root.section("certificate", read_head).flatten();
     let (monte_carlo, zone) = (root.get("monte_carlo"), root.get("zone"));
     let (
         Some(machine),
@@ -145,6 +149,7 @@ fn read(root: &Section<'_>, folder: &Path, mut inputs: Inputs) -> Option<Study> 
     let (applied, application) = compensation.flatten()?;
     Some(Study {
         name: name?.to_owned(),
+        head,
         determination: found.circumstances,
         known: found.known,
         determined: found.determined,

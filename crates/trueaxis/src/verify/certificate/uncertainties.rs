@@ -47,8 +47,8 @@ impl UncertaintyFactors {
     /// From an identification of this machine; for errors that it did not determine, from the machine file.
     /// Terms that its selection left out count as 0, without an uncertainty.
     pub fn identified(machine: &Machine, found: &Identification) -> Self {
-        let covariance = &found.fit.covariance * (found.birge * found.birge);
-        Self::of_fit(machine, &found.design.terms, &covariance)
+        let covariance = &found.fit.covariance;
+        Self::of_fit(machine, &found.design.terms, covariance)
     }
 
     /// The same from terms and their covariance (mm², mm·rad, rad²); rows after those of the terms

@@ -140,6 +140,8 @@ fn tip_in_workpiece(machine: &Machine) -> Instrument {
         noise: [1.0; 3],
         unknowns: Vec::new(),
         material: None,
+        reads: Default::default(),
+        assumed: Default::default(),
     }
 }
 

@@ -4,10 +4,11 @@ use super::reduce::{Role, role};
 use super::{CircleReadings, ErrorReadings, ReferenceLine, TableStudy};
 use crate::verify::Standard;
 use crate::verify::certificate::read_at;
-use crate::verify::import::Import;
+use crate::verify::import::{From, Import};
 use crate::verify::iso230_2::{Direction, Measurement, read_deviations};
 use std::path::Path;
 use trueaxis_geometry::AxisKind;
+use trueaxis_input::foreign::{self, Mapping};
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, Place, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Command;
@@ -114,7 +115,7 @@ impl Beside<'_> {
         let u_ratio = s.get("u_ratio").and_then(|i| positive(&i, Dimension::Angle)).unwrap_or(0.0);
         let (instrument, optics_mm) = (text("instrument"), self.point(s, "optics"));
         let own_date = s.get("date").and_then(|d| d.date_or_text());
-        let ((index, axis), (file, table)) = error.zip(table)?;
+        let ((index, axis), (file, table, mapping)) = error.zip(table)?;
         if at.is_some_and(|at| at[axis] != 0.0) {
             let message =
                 format!("at: the position of {} itself is that of each target", name.body);
@@ -128,7 +129,9 @@ impl Beside<'_> {
         let mut problems = Diagnostics::new();
         // Reports of others say where the axis was, which is positioning.
         let form = Import::of(Path::new(&file));
-        let read = form.read(Standard::Iso230_2, &file, &table, None, &mut problems);
+        let (standard, mapping) = (Standard::Iso230_2, mapping.as_ref());
+        let from = From { standard, file: &file, text: &table, feature: None, mapping };
+        let read = form.read(&from, &mut problems);
         let measurement =
             read.and_then(|r| read_deviations(&file, r.table(), dimension, &mut problems));
         s.take_over(problems);
@@ -179,13 +182,17 @@ impl Beside<'_> {
         Some((index, axis))
     }
 
-    fn table(&self, s: &Section<'_>, what: &str) -> Option<(String, String)> {
+    /// Name and text of the table, and its mapping file if it has one.
+    fn table(&self, s: &Section<'_>, what: &str) -> Option<(String, String, Option<Mapping>)> {
         let name = s.require("table", &format!("table = \"readings.csv\": {what}"))?.text()?;
-        let path = self.path.parent().unwrap_or(Path::new("")).join(name);
+        let folder = self.path.parent().unwrap_or(Path::new(""));
+        let (path, map) = (folder.join(name), s.text("map").map(|name| folder.join(name)));
         let mut problems = Diagnostics::new();
-        let text = s.files().text(&path, "a table of readings (CSV)", &mut problems);
+        let mapping = foreign::read_mapping(s.files(), map.as_deref(), &path, &mut problems);
+        let what = "a table of readings (CSV)";
+        let text = foreign::text(s.files(), &path, what, mapping.as_ref(), &mut problems);
         s.take_over(problems);
-        Some((path.display().to_string(), text?))
+        Some((path.display().to_string(), text?, mapping))
     }
 
     fn at(&self, s: &Section<'_>) -> Option<Command> {
@@ -216,10 +223,16 @@ impl Beside<'_> {
         }
         s.text("instrument");
         let (at, ball_mm) = (self.at(s), self.point(s, "ball"));
-        let (file, text) = table?;
+        let (file, text, mapping) = table?;
+        let mut problems = Diagnostics::new();
+        let (standard, mapping) = (Standard::Iso230_4, mapping.as_ref());
+        let from = From { standard, file: &file, text: &text, feature: None, mapping };
+        let read = Import::of(Path::new(&file)).read(&from, &mut problems);
+        let text = read.map(|r| r.table().to_owned());
+        s.take_over(problems);
         Some(CircleReadings {
+            text: text?,
             file,
-            text,
             centre_mm: centre_mm?,
             radius_mm: radius_mm?,
             at: at?,

@@ -2,16 +2,15 @@
 
 use super::{CircleReadings, TableStudy};
 use crate::verify::conditions::Circle;
-use crate::verify::iso230_4::{self, Causes, Circular};
+use crate::verify::iso230_4::{self, Causes, Circular, Sense};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
-use trueaxis_geometry::Mat3;
+use trueaxis_condition::ball_bar::location_error;
+use trueaxis_condition::virtual_circle::VirtualCircle;
 use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Command;
-use trueaxis_machine::errors::{Component, ErrorKind, ErrorName};
-use trueaxis_machine::twist::Reference;
-use trueaxis_measure::unknowns::minimal::minimal_location_errors;
+use trueaxis_machine::errors::ErrorName;
 
 /// Points of a virtual circle in each direction.
 const POINTS: u32 = 360;
@@ -82,7 +81,7 @@ fn squareness(
     problems: &mut Diagnostics,
 ) -> Option<Squareness> {
     let place = || Place::whole(&circle.file);
-    let nominal = Circle { centre_mm: Some(circle.centre_mm), radius_mm: Some(circle.radius_mm) };
+    let nominal = nominal(circle);
     let read = iso230_4::evaluate(&circle.file, &circle.text, nominal, problems)?;
     if !is_as_stated(circle, &read, &place(), problems) {
         return None;
@@ -105,7 +104,7 @@ fn squareness(
         problems.error("no-squareness", place(), message, hint);
         return None;
     };
-    let virtual_circle = Virtual { machine, circle, read: &read, axes };
+    let virtual_circle = Virtual { circle, read: &read, axes };
     let before = virtual_circle.causes(machine, problems)?;
     let index = machine.error_index(name)?;
     let old = machine.errors_at(&virtual_circle.centre(), &Default::default()).ok()?.get(index);
@@ -223,30 +222,13 @@ fn axes_of(
     found.map(|(a, b)| [a, b])
 }
 
-/// The location error that states the squareness of two linear axes: of those that are independent.
-fn location_error(machine: &Machine, axes: [usize; 2]) -> Option<ErrorName> {
-    let [first, second] = axes.map(|i| &machine.axes()[i]);
-    let normal = first.direction.cross(&second.direction);
-    let component = [Component::A, Component::B, Component::C]
-        .into_iter()
-        .find(|c| normal[*c as usize % 3].abs() > 0.5)?;
-    let names = [first.name, second.name];
-    let is_theirs = |name: &ErrorName| name.component == component && names.contains(&name.body);
-    // The one that the machine file states is replaced; a second one would add to it.
-    let stated = machine.stated_errors().into_iter().map(|(_, name)| name);
-    let location = |name: &ErrorName| name.kind == ErrorKind::Location && is_theirs(name);
-    let of_machine: Vec<ErrorName> = stated.filter(location).collect();
-    let terms = minimal_location_errors(machine);
-    let minimal = terms.iter().map(|t| t.error).find(is_theirs);
-    match minimal {
-        Some(name) if of_machine.is_empty() || of_machine.contains(&name) => Some(name),
-        _ => of_machine.first().copied().or(minimal),
-    }
+fn nominal(circle: &CircleReadings) -> Circle {
+    let (centre_mm, radius_mm) = (Some(circle.centre_mm), Some(circle.radius_mm));
+    Circle { centre_mm, radius_mm, ..Circle::default() }
 }
 
 /// The circle on a virtual machine.
 struct Virtual<'a> {
-    machine: &'a Machine,
     circle: &'a CircleReadings,
     read: &'a Circular,
     axes: [usize; 2],
@@ -271,10 +253,7 @@ impl Virtual<'_> {
                 return None;
             }
         };
-        let nominal = Circle {
-            centre_mm: Some(self.circle.centre_mm),
-            radius_mm: Some(self.circle.radius_mm),
-        };
+        let nominal = nominal(self.circle);
         let read = iso230_4::evaluate("virtual circle", &text, nominal, &mut Diagnostics::new());
         let causes = read.and_then(|circle| circle.causes);
         if causes.is_none() {
@@ -287,29 +266,21 @@ impl Virtual<'_> {
 
     fn points(&self, machine: &Machine) -> Result<String, String> {
         let [first, second] = self.read.axes.each_ref().map(|a| a.to_lowercase());
+        let (centre_mm, radius_mm) = (self.circle.centre_mm, self.circle.radius_mm);
+        let (centre, ball_mm) = (self.centre(), self.circle.ball_mm);
+        let circle = VirtualCircle { axes: self.axes, centre, radius_mm, ball_mm };
+        let mut points = Vec::new();
+        for sense in [Sense::CounterClockwise, Sense::Clockwise] {
+            // Half a step from the reversals, which are left out.
+            let angle = |i: u32| sense.sign() * (f64::from(i) + 0.5) * TAU / f64::from(POINTS);
+            points.extend((0..POINTS).map(|i| (angle(i), sense)));
+        }
         let mut text = format!("{first}_mm,{second}_mm,direction\n");
-        let machine = machine.clone().with_tip(self.circle.ball_mm);
-        // The axes of the machine in the frame of the workpiece, which may stand inclined.
-        let of_tool = |r| *machine.error_frames(&self.centre(), r).reference_from_tool().linear();
-        let from_bed: Mat3 = of_tool(Reference::Workpiece) * of_tool(Reference::Bed).transpose();
-        let directions = self.axes.map(|i| from_bed * self.machine.axes()[i].direction);
-        for (word, sign) in [("ccw", 1.0), ("cw", -1.0)] {
-            for i in 0..POINTS {
-                // Half a step from the reversals, which are left out.
-                let angle = sign * (f64::from(i) + 0.5) * TAU / f64::from(POINTS);
-                let mut command = self.centre();
-                let offset = [angle.cos(), angle.sin()].map(|v| v * self.circle.radius_mm);
-                for (axis, d) in self.axes.iter().zip(offset) {
-                    command[*axis] += d;
-                }
-                let errors = machine
-                    .errors_at(&command, &Default::default())
-                    .map_err(|fault| fault.to_string())?;
-                let tip = machine.deviation(&command, &errors).tip_mm;
-                let at = |k: usize| command[self.axes[k]] + tip.dot(&directions[k]);
-                // Writing into a text cannot fail.
-                let _ = writeln!(text, "{:.9},{:.9},{word}", at(0), at(1));
-            }
+        for ((angle, sense), more) in points.iter().zip(circle.read(machine, &points)?) {
+            let r = radius_mm + more;
+            let [x, y] = [centre_mm[0] + r * angle.cos(), centre_mm[1] + r * angle.sin()];
+            // Writing into a text cannot fail.
+            let _ = writeln!(text, "{x:.9},{y:.9},{}", sense.word());
         }
         Ok(text)
     }

@@ -1,0 +1,120 @@
+//! Predicting readings where the errors cannot be separated: all errors together, listed or not, each with what is
+//! known of it before as a prior (ridge regression with stated weights).
+//!
+//! ```text
+//!     x̂ = (N + σ² Λ)⁻¹ g      Λ = diag(1/u²) of the listed ones, 1/(t_g D²) of the others     docs/model.md eq. 306
+//! ```
+//!
+//! Compensation needs the place of the tool, not the names of the errors. How good the prediction is, is seen on
+//! readings that were held out: every tenth of the places, and all readings at one angle of a rotary axis; the sizes
+//! are found again without them.
+
+use super::adequacy::{Prepared, Task, explanations};
+use super::score::Rms;
+use super::selection::parts_by_place;
+use nalgebra::DVector;
+use trueaxis_machine::axis::{Axis, AxisKind};
+use trueaxis_measure::unknowns::fit::linear_residuals;
+use trueaxis_measure::unknowns::mixed::Sizes;
+
+/// Angles of a rotary axis that are held out one after the other; with more it is swept, not set.
+const ANGLES: std::ops::RangeInclusive<usize> = 3..=24;
+/// More readings than this are not held out: it would take too long, and selection does it for the listed errors.
+const MOST_ROWS: usize = 3000;
+/// Parts of the places.
+const FOLDS: usize = 10;
+
+/// Readings that were predicted by a model without them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeldOut {
+    /// The rotary axis of which one angle after the other was held out; none: tenths of the places.
+    pub axis: Option<usize>,
+    /// How many parts.
+    pub parts: usize,
+    /// The residual of the prediction by all errors.
+    pub predicted: Rms,
+    /// The residual of the listed errors alone.
+    pub listed: Rms,
+}
+
+/// How well readings are predicted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Predictor {
+    /// On the readings themselves.
+    pub in_sample: Rms,
+    /// On readings that were held out.
+    pub held_out: Vec<HeldOut>,
+    /// The values of all errors, in the order of the design with all. Unit: mm, rad or 1.
+    pub values: DVector<f64>,
+}
+
+/// Predicts; `None` if the sums are not finite.
+pub(super) fn predictor(all: &Prepared<'_>, sizes: &Sizes, task: Task<'_>) -> Option<Predictor> {
+    let values = all.values(&all.sums(|_| true), sizes)?;
+    let in_sample = rms(all, task, |_| &values);
+    let mut splits = Vec::new();
+    if task.readings.len() <= MOST_ROWS {
+        splits.push((None, parts_by_place(task.readings, FOLDS).0));
+        splits.extend(angles(task).into_iter().map(|(axis, parts)| (Some(axis), parts)));
+    }
+    let held_out = splits.into_iter().filter_map(|(axis, part)| held_out(all, task, axis, &part));
+    Some(Predictor { in_sample, held_out: held_out.collect(), values })
+}
+
+fn rms<'v>(
+    all: &Prepared<'_>,
+    task: Task<'_>,
+    values: impl Fn(usize) -> &'v DVector<f64> + Sync,
+) -> Rms {
+    let residuals = linear_residuals(&all.all, task.readings, &all.z, values);
+    // What was left out of the fit is no measure of it.
+    let counts = |i: usize| task.weights.get(i) != Some(&0.0);
+    let kept =
+        (0..residuals.len()).filter(|i| counts(*i)).map(|i| residuals[i]).collect::<Vec<_>>();
+    Rms::of(&all.all, &task.readings.filtered(counts), &kept)
+}
+
+/// Every part predicted by the others, with the listed errors and with all.
+fn held_out(
+    all: &Prepared<'_>,
+    task: Task<'_>,
+    axis: Option<usize>,
+    part: &[usize],
+) -> Option<HeldOut> {
+    let parts = part.iter().max().map_or(0, |p| p + 1);
+    if parts < 2 {
+        return None;
+    }
+    let mut with = Vec::new();
+    let mut listed = Vec::new();
+    for held in 0..parts {
+        let sums = all.sums(|i| part[i] != held);
+        let rest = all.rest(&sums)?;
+        let sizes = explanations(&rest, &all.ranges).swap_remove(0);
+        with.push(all.values(&sums, &sizes)?);
+        listed.push(all.values(&sums, &Sizes::none(all.ranges.len()))?);
+    }
+    Some(HeldOut {
+        axis,
+        parts,
+        predicted: rms(all, task, |i| &with[part[i]]),
+        listed: rms(all, task, |i| &listed[part[i]]),
+    })
+}
+
+/// Rotary axes that stood at a few angles, with the number of the angle of each row.
+fn angles(task: Task<'_>) -> Vec<(usize, Vec<usize>)> {
+    let axes = task.design.machine.axes().iter().enumerate();
+    let rotary = axes.filter(|(_, a)| a.kind == AxisKind::Rotary);
+    let of = |(axis, _): (usize, &Axis)| {
+        let angle =
+            |i: usize| (task.readings.commands[i][axis].to_degrees() * 100.0).round() as i64;
+        let mut distinct: Vec<i64> = (0..task.readings.len()).map(angle).collect();
+        distinct.sort_unstable();
+        distinct.dedup();
+        let place = |i: usize| distinct.binary_search(&angle(i)).unwrap_or(0);
+        let parts = (0..task.readings.len()).map(place).collect();
+        ANGLES.contains(&distinct.len()).then_some((axis, parts))
+    };
+    rotary.filter_map(of).collect()
+}

@@ -1,0 +1,28 @@
+//! What is wrong with the machine?
+//!
+//! ```text
+//!     circle of a ball-bar + machine ──ball_bar──> errors by their ISO 230-1 names, machine file, read back
+//! ```
+//!
+//! [`history`]: figures of machine files and evaluations over the years; [`certificate_head`]: who, where, with which
+//! instruments.
+//!
+//! The figures of the standards come from `trueaxis-standards`, the machine from `trueaxis-machine`.
+
+pub mod ball_bar;
+pub mod certificate_head;
+pub mod date;
+pub mod history;
+pub mod history_report;
+pub mod report;
+pub mod virtual_circle;
+
+use trueaxis_report::{NamedSchema, named_schema};
+
+/// The JSON Schemas of the documents of this crate, by name.
+pub fn schemas() -> Vec<NamedSchema> {
+    vec![
+        named_schema::<report::EvaluatedDocument<'_>>("evaluate"),
+        named_schema::<history_report::HistoryDocument<'_>>("history"),
+    ]
+}

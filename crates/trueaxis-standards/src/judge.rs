@@ -1,0 +1,429 @@
+//! Figures of an evaluation against their tolerances: docs/model.md eq. 260.
+//!
+//! ```
+//! use trueaxis_standards::judge::{Decision, decide};
+//! // 10 µm allowed: 8 ± 1 conforms, 12 ± 1 does not, 9.5 ± 1 is proved neither way.
+//! assert_eq!(decide(8.0, Some(1.0), 10.0, true), Decision::Conforming);
+//! assert_eq!(decide(-12.0, Some(1.0), 10.0, true), Decision::NotConforming);
+//! assert_eq!(decide(9.5, Some(1.0), 10.0, true), Decision::NotProved);
+//! assert_eq!(decide(9.5, None, 10.0, false), Decision::Conforming); // simple acceptance
+//! ```
+
+use crate::Evaluated;
+use crate::conditions::{Conditions, Extent};
+use crate::coverage::Expanded;
+use crate::iso230_2::{Positioning, Quantity};
+use crate::iso230_4::{Cause, Circular};
+use std::path::Path;
+use trueaxis_geometry::AxisKind;
+use trueaxis_input::{
+    Diagnostics, Dimension, Files, Item, Place, Section, SourceText, parse_quantity,
+};
+
+/// A figure of an evaluation with its uncertainty.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    /// Its name in JSON, without the unit: `A`, `G_b`, `x.range`.
+    pub name: String,
+    /// Whether it is a length, an angle or a temperature.
+    pub dimension: Dimension,
+    /// Its value. Unit: mm, rad or °C.
+    pub value: f64,
+    /// Its uncertainty; `None` where too little is known of the instrument.
+    pub uncertainty: Option<Expanded>,
+}
+
+/// A tolerance: the largest size that a figure may have.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tolerance {
+    /// The figure.
+    pub name: String,
+    /// Its dimension.
+    pub dimension: Dimension,
+    /// The limit. Unit: mm, rad or °C.
+    pub limit: f64,
+    /// Where it is stated.
+    pub place: Place,
+}
+
+/// What a measurement proves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Decision {
+    /// Within the tolerance.
+    Conforming,
+    /// Outside of it.
+    NotConforming,
+    /// Neither.
+    NotProved,
+}
+
+impl Decision {
+    /// In JSON and in words.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Conforming => "conforming",
+            Self::NotConforming => "not conforming",
+            Self::NotProved => "neither proved",
+        }
+    }
+}
+
+/// A figure with its tolerance and the decision.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judged {
+    /// The figure.
+    pub figure: Figure,
+    /// Its tolerance. Unit: mm, rad or °C.
+    pub limit: f64,
+    /// By ISO 14253-1, not by simple acceptance.
+    pub is_guarded: bool,
+    /// The decision.
+    pub decision: Decision,
+}
+
+/// The decision on the size of a value: by ISO 14253-1 conformity is proved below limit − U and the opposite above
+/// limit + U; without U neither is. By simple acceptance the value alone counts.
+pub fn decide(value: f64, expanded: Option<f64>, limit: f64, is_guarded: bool) -> Decision {
+    let size = value.abs();
+    match (is_guarded, expanded) {
+        (false, _) if size <= limit => Decision::Conforming,
+        (false, _) => Decision::NotConforming,
+        (true, Some(u)) if size + u <= limit => Decision::Conforming,
+        (true, Some(u)) if size - u > limit => Decision::NotConforming,
+        (true, _) => Decision::NotProved,
+    }
+}
+
+/// Every figure of an evaluation that may have a tolerance.
+pub fn figures(evaluated: &Evaluated, conditions: &Conditions) -> Vec<Figure> {
+    let plain = |name: String, dimension, value: Option<f64>| {
+        value.map(|value| Figure { name, dimension, value, uncertainty: None })
+    };
+    match evaluated {
+        Evaluated::Positioning(_, result) => positioning("", result),
+        Evaluated::Circular(circle) => circular(circle, conditions),
+        Evaluated::Diagonals(found) => {
+            let own = found.diagonals.iter();
+            let own = own.flat_map(|d| positioning(&format!("{}.", d.diagonal.name()), &d.result));
+            let largest = [Quantity::E, Quantity::R, Quantity::B, Quantity::A].map(|quantity| {
+                let all = found.diagonals.iter().filter_map(|d| {
+                    Some((d.result.value(quantity)?, d.result.expanded_of(quantity)))
+                });
+                let (value, expanded) =
+                    all.reduce(|a, b| if b.0.abs() > a.0.abs() { b } else { a })?;
+                let name = format!("{}_d", quantity.key());
+                let uncertainty = expanded.map(prescribed);
+                Some(Figure { name, dimension: Dimension::Length, value, uncertainty })
+            });
+            largest.into_iter().flatten().chain(own).collect()
+        }
+        Evaluated::Drift(drift) => {
+            let of_channel = drift.channels.iter().flat_map(|c| {
+                let of = |name: &str, value| {
+                    plain(format!("{}.{name}", c.name), c.dimension, Some(value))
+                };
+                [
+                    of("range", c.range),
+                    of("first_window", c.first_window),
+                    of("largest_window", c.largest_window.0),
+                ]
+            });
+            of_channel.flatten().collect()
+        }
+        Evaluated::Geometric(test) => {
+            let of = |q: &crate::iso230_1::Quantity| Figure {
+                name: q.name.clone(),
+                dimension: if q.is_angle { Dimension::Angle } else { Dimension::Length },
+                value: q.value,
+                uncertainty: q.expanded.map(prescribed),
+            };
+            test.quantities.iter().map(of).collect()
+        }
+        Evaluated::Probing(test) => {
+            let of = |q: &crate::iso230_10::ProbingQuantity| Figure {
+                name: q.name.clone(),
+                dimension: Dimension::Length,
+                value: q.value_mm,
+                uncertainty: q.expanded_mm.map(prescribed),
+            };
+            test.quantities.iter().map(of).collect()
+        }
+        Evaluated::Rotation(rotation) => {
+            let of_motion = rotation.motions.iter().flat_map(|m| {
+                let of = |name: &str, value| {
+                    plain(format!("{}.{name}", m.sensitive.name()), Dimension::Length, value)
+                };
+                [
+                    of("total", Some(m.total_mm)),
+                    of("synchronous", Some(m.synchronous_mm)),
+                    of("asynchronous", m.asynchronous_mm),
+                    of("fundamental", Some(m.fundamental_mm)),
+                ]
+            });
+            of_motion.flatten().collect()
+        }
+    }
+}
+
+/// U with the k = 2 that ISO/TR 230-9 prescribes for contributions that are stated, not estimated.
+fn prescribed(expanded: f64) -> Expanded {
+    Expanded { u: 0.5 * expanded, degrees_of_freedom: None, coverage_factor: 2.0 }
+}
+
+fn positioning(prefix: &str, result: &Positioning) -> Vec<Figure> {
+    let dimension = match result.kind {
+        AxisKind::Linear => Dimension::Length,
+        AxisKind::Rotary => Dimension::Angle,
+    };
+    let of = |quantity: Quantity| {
+        Some(Figure {
+            name: format!("{prefix}{}", quantity.key()),
+            dimension,
+            value: result.value(quantity)?,
+            uncertainty: result.expanded_of(quantity).map(prescribed),
+        })
+    };
+    let vdi = &result.others.vdi3441;
+    let others = [("P", vdi.p), ("Pa", vdi.pa), ("Ps", vdi.ps), ("Umax", vdi.u)];
+    let others = others.into_iter().filter_map(|(name, value)| {
+        let name = format!("{prefix}{name}");
+        Some(Figure { name, dimension, value: value?, uncertainty: None })
+    });
+    Quantity::ALL.into_iter().filter_map(of).chain(others).collect()
+}
+
+/// G is the difference of two readings, F and D are one; what the length of the bar is not known to counts in F and D.
+fn circular(circle: &Circular, conditions: &Conditions) -> Vec<Figure> {
+    let device = conditions.instrument.and_then(|i| i.device_expanded);
+    let u = match device {
+        Some(Extent::Length(expanded)) => Some(0.5 * expanded),
+        _ => None,
+    };
+    let length_u = conditions.circle.length_u_mm.unwrap_or(0.0);
+    let known = |u: f64| Expanded { u, degrees_of_freedom: None, coverage_factor: 2.0 };
+    let (two, one) =
+        (u.map(|u| known(std::f64::consts::SQRT_2 * u)), u.map(|u| known(u.hypot(length_u))));
+    let mut all = Vec::new();
+    let mut put = |name: String, value: Option<f64>, uncertainty: Option<Expanded>| {
+        let dimension = Dimension::Length;
+        all.extend(value.map(|value| Figure { name, dimension, value, uncertainty }));
+    };
+    for p in &circle.paths {
+        let sense = p.path.sense.word();
+        put(format!("G_{sense}"), Some(p.g_mm), two);
+        put(format!("F_{sense}_max"), p.f_mm.map(|f| f[0]), one);
+        put(format!("F_{sense}_min"), p.f_mm.map(|f| f[1]), one);
+    }
+    put("G".to_owned(), circle.paths.iter().map(|p| p.g_mm).reduce(f64::max), two);
+    put("G_b".to_owned(), circle.g_both_mm, two);
+    let both = circle.paths.iter().filter_map(|p| p.f_mm);
+    let both = both.reduce(|a, b| [a[0].max(b[0]), a[1].min(b[1])]);
+    put("F_max".to_owned(), both.map(|f| f[0]), one);
+    put("F_min".to_owned(), both.map(|f| f[1]), one);
+    put("D".to_owned(), circle.d_mm, one);
+    for f in circle.diagnosis.iter().flat_map(|d| &d.found) {
+        if matches!(f.cause, Cause::Unexplained) {
+            continue;
+        }
+        let axis = f.cause.axis().map(|i| format!(".{}", circle.axes[i])).unwrap_or_default();
+        let dimension =
+            if f.cause == Cause::Squareness { Dimension::Angle } else { Dimension::Length };
+        let name = format!("{}{axis}", f.cause.key());
+        all.push(Figure { name, dimension, value: f.value, uncertainty: Some(f.uncertainty) });
+    }
+    all
+}
+
+/// Reads tolerances: `A=10 um` each, and those of a file for the axis that was measured; what was typed has priority.
+pub fn tolerances(
+    typed: &[String],
+    file: Option<&Path>,
+    files: &Files,
+    axis: Option<&str>,
+    problems: &mut Diagnostics,
+) -> Vec<Tolerance> {
+    let place = Place::whole("--tolerance");
+    let mut all: Vec<Tolerance> = Vec::new();
+    for text in typed {
+        let Some((name, value)) = text.split_once('=') else {
+            let message = format!("`{text}` is not a figure, = and a limit");
+            problems.error("bad-tolerance", place.clone(), message, "--tolerance \"A=10 um\"");
+            continue;
+        };
+        let read = limit(value.trim(), &place, problems);
+        let Some((dimension, limit)) = read else { continue };
+        let name = name.trim().to_owned();
+        if all.iter().any(|t| t.name == name) {
+            let message = format!("`{name}` has two tolerances");
+            problems.error("bad-tolerance", place.clone(), message, "one for each figure");
+            continue;
+        }
+        all.push(Tolerance { name, dimension, limit, place: place.clone() });
+    }
+    let what = "a file of tolerances (TOML)";
+    let text = file.and_then(|path| Some((path, files.text(path, what, problems)?)));
+    if let Some((path, text)) = text {
+        let file = path.display().to_string();
+        let source = SourceText::new(&file, &text);
+        let of_file = source.read(|root| read_file(root, axis));
+        problems.append(source.finish());
+        let is_new = |t: &Tolerance| all.iter().all(|known| known.name != t.name);
+        let new: Vec<Tolerance> = of_file.into_iter().filter(is_new).collect();
+        all.extend(new);
+    }
+    all
+}
+
+/// `[tolerance]` for every axis, `[axis.X]` for one.
+fn read_file(root: &Section<'_>, axis: Option<&str>) -> Vec<Tolerance> {
+    root.text("name");
+    root.text("source");
+    let mut all: Vec<Tolerance> = Vec::new();
+    let read = |s: &Section<'_>| {
+        let entries = s.entries().into_iter();
+        entries.filter_map(|(name, place, item)| of_item(name, place, &item)).collect::<Vec<_>>()
+    };
+    root.section("axis", |axes| {
+        for (name, _, item) in axes.entries() {
+            let own = item.section(&axes.path(name), read).unwrap_or_default();
+            if axis.is_some_and(|a| a.eq_ignore_ascii_case(name)) {
+                all.extend(own);
+            }
+        }
+    });
+    for tolerance in root.section("tolerance", read).unwrap_or_default() {
+        if all.iter().all(|known| known.name != tolerance.name) {
+            all.push(tolerance);
+        }
+    }
+    all
+}
+
+fn of_item(name: &str, place: Place, item: &Item<'_>) -> Option<Tolerance> {
+    let mut problems = Diagnostics::new();
+    let read = limit(item.text()?, &item.place(), &mut problems);
+    for problem in problems.iter() {
+        item.error(problem.code, problem.message.clone(), &problem.hint);
+    }
+    let (dimension, limit) = read?;
+    Some(Tolerance { name: name.to_owned(), dimension, limit, place })
+}
+
+fn limit(text: &str, place: &Place, problems: &mut Diagnostics) -> Option<(Dimension, f64)> {
+    let dimensions = [Dimension::Length, Dimension::Angle, Dimension::Temperature];
+    let read = dimensions.into_iter().find_map(|d| Some((d, parse_quantity(text, d).ok()?)));
+    match read {
+        Some((dimension, limit)) if limit > 0.0 => Some((dimension, limit)),
+        _ => {
+            let message = format!("`{text}` is not a limit above zero with its unit");
+            problems.error(
+                "bad-tolerance",
+                place.clone(),
+                message,
+                "such as \"10 um\", \"5 arcsec\"",
+            );
+            None
+        }
+    }
+}
+
+/// Every figure that has a tolerance, judged; a tolerance of a figure that the evaluation does not have is an error.
+pub fn judge(
+    figures: &[Figure],
+    tolerances: &[Tolerance],
+    is_guarded: bool,
+    problems: &mut Diagnostics,
+) -> Vec<Judged> {
+    let mut judged = Vec::new();
+    for tolerance in tolerances {
+        let Some(figure) = figures.iter().find(|f| f.name == tolerance.name) else {
+            let names: Vec<&str> = figures.iter().map(|f| f.name.as_str()).collect();
+            let message = format!("this evaluation has no figure `{}`", tolerance.name);
+            let hint = format!("its figures are {}", names.join(", "));
+            problems.error("unknown-figure", tolerance.place.clone(), message, &hint);
+            continue;
+        };
+        if figure.dimension != tolerance.dimension {
+            let message = format!(
+                "the tolerance of `{}` is {}, the figure is {}",
+                figure.name, tolerance.dimension, figure.dimension
+            );
+            problems.error(
+                "wrong-unit",
+                tolerance.place.clone(),
+                message,
+                "a limit in a unit of the figure",
+            );
+            continue;
+        }
+        let expanded = figure.uncertainty.map(|u| u.expanded());
+        if is_guarded && expanded.is_none() {
+            let message =
+                format!("U of `{}` is not known: ISO 14253-1 can prove nothing", figure.name);
+            let hint =
+                "state the instrument in [uncertainty] of the conditions file, or --rule simple";
+            problems.warn("missing-uncertainty", tolerance.place.clone(), message, hint);
+        }
+        let decision = decide(figure.value, expanded, tolerance.limit, is_guarded);
+        judged.push(Judged {
+            figure: figure.clone(),
+            limit: tolerance.limit,
+            is_guarded,
+            decision,
+        });
+    }
+    judged
+}
+
+/// The decision on all of them together.
+pub fn overall(judged: &[Judged]) -> Option<Decision> {
+    let worst = |a: Decision, b: Decision| match (a, b) {
+        (Decision::NotConforming, _) | (_, Decision::NotConforming) => Decision::NotConforming,
+        (Decision::NotProved, _) | (_, Decision::NotProved) => Decision::NotProved,
+        _ => Decision::Conforming,
+    };
+    judged.iter().map(|j| j.decision).reduce(worst)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_has_limits_for_all_axes_and_for_one() {
+        let text =
+            "[tolerance]\nA = '10 um'\nR = '6 um'\n[axis.X]\nA = '8 um'\n[axis.C]\nA = '5 arcsec'";
+        let read = |axis: Option<&str>| {
+            let source = SourceText::new("t.toml", text);
+            let all = source.read(|root| read_file(root, axis));
+            assert!(!source.finish().has_errors());
+            all.iter().map(|t| (t.name.clone(), t.limit)).collect::<Vec<_>>()
+        };
+        let a = |limit: f64| ("A".to_owned(), limit);
+        assert_eq!(read(None), [a(0.010), ("R".to_owned(), 0.006)]);
+        assert_eq!(read(Some("x"))[0], a(0.008));
+    }
+
+    #[test]
+    fn bad_tolerances_are_named() {
+        let figure = Figure {
+            name: "A".into(),
+            dimension: Dimension::Length,
+            value: 1e-3,
+            uncertainty: None,
+        };
+        for (typed, code) in [
+            ("A", "bad-tolerance"),
+            ("A=-1 um", "bad-tolerance"),
+            ("A=1", "bad-tolerance"),
+            ("Q=1 um", "unknown-figure"),
+            ("A=1 arcsec", "wrong-unit"),
+            ("A=2 um", "missing-uncertainty"),
+        ] {
+            let mut problems = Diagnostics::new();
+            let read = tolerances(&[typed.to_owned()], None, &Files::none(), None, &mut problems);
+            judge(std::slice::from_ref(&figure), &read, true, &mut problems);
+            assert_eq!(problems.iter().next().map(|d| d.code), Some(code), "{typed}");
+        }
+    }
+}
