@@ -13,5 +13,5 @@ $trueaxis plan probe-surface examples/04_plan/probe-surface.toml -o "$out/probe-
 $trueaxis identify surface "$out/probe-surface/hits.toml" -o "$out/measured.csv"
 # Length and diameter of the tools at a tool setter, with alarms for broken tools.
 for control in fanuc haas sinumerik linuxcnc heidenhain; do
-    $trueaxis plan tool-setting machines/i5-engraver/machine.toml examples/04_plan/tool-setting.setup.toml -o "$out/tool-setting" --control $control
+    $trueaxis plan tool-setting machines/i5-engraver/machine.toml examples/04_plan/tool-setting.setup.toml -o "$out/tool-setting-$control" --control $control
 done
