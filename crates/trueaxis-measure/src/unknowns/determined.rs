@@ -72,14 +72,8 @@ impl Determined {
         covariance: &DMatrix<f64>,
     ) -> Self {
         let scale = all_before(design);
-        let unseen = unseen(sight, &scale);
         let n = values.len();
-        let hidden = DMatrix::from_fn(n, unseen.ncols(), |k, j| scale[k] * unseen[(k, j)]);
-        let reading = DMatrix::from_fn(unseen.ncols(), n, |j, k| unseen[(k, j)] / scale[k]);
-        let project = DMatrix::identity(n, n) - &hidden * reading;
-        let values = &project * DVector::from_column_slice(values);
-        let seen = &project * covariance * project.transpose();
-        let covariance = &seen + &hidden * hidden.transpose();
+        let Limit { values, seen, covariance } = limit(sight, &scale, values, covariance);
         let is_determined = (0..n).map(|k| {
             let known = design.unknown(k).is_some_and(|u| u.prior().is_some())
                 || design.known().is_some_and(|known| known.normal[(k, k)] > 0.0);
@@ -106,6 +100,30 @@ impl Determined {
     }
 }
 
+/// Values with what is known of them, as a prior 0 ± `scale` becomes weak.
+struct Limit {
+    values: DVector<f64>,
+    seen: DMatrix<f64>,
+    covariance: DMatrix<f64>,
+}
+
+fn limit(
+    sight: &Observability,
+    scale: &DVector<f64>,
+    values: &[f64],
+    covariance: &DMatrix<f64>,
+) -> Limit {
+    let unseen = unseen(sight, scale);
+    let n = values.len();
+    let hidden = DMatrix::from_fn(n, unseen.ncols(), |k, j| scale[k] * unseen[(k, j)]);
+    let reading = DMatrix::from_fn(unseen.ncols(), n, |j, k| unseen[(k, j)] / scale[k]);
+    let project = DMatrix::identity(n, n) - &hidden * reading;
+    let values = &project * DVector::from_column_slice(values);
+    let seen = &project * covariance * project.transpose();
+    let covariance = &seen + &hidden * hidden.transpose();
+    Limit { values, seen, covariance }
+}
+
 /// An orthonormal basis of what is not seen, in units of what was not known before.
 fn unseen(sight: &Observability, scale: &DVector<f64>) -> DMatrix<f64> {
     let null = &sight.null_space;
@@ -123,4 +141,27 @@ pub fn members_that_matter(design: &Design, members: &[(usize, f64)]) -> Vec<(us
         |(k, share): &(usize, f64)| design.unknown(*k).map_or(0.0, |u| (share / before(&u)).abs());
     let greatest = members.iter().map(size).fold(0.0, f64::max);
     members.iter().filter(|m| size(m) >= NAMED * greatest).copied().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slight_part_in_what_is_not_seen_costs_little() {
+        // Only a + b/1000 is read, 0.02 mm with u = 1 µm; neither was known to better than 1 mm (docs/model.md 300).
+        let row = DVector::from_vec(vec![1e3, 1.0]);
+        let sight = Observability::of(&(&row * row.transpose()));
+        let values = sight.solve(&(&row * 20.0));
+        let scale = DVector::from_element(2, 1.0);
+        let found = limit(&sight, &scale, values.as_slice(), &sight.covariance());
+        let u = |k: usize| found.covariance[(k, k)].sqrt();
+        assert!((u(0) - 2f64.sqrt() * 1e-3).abs() < 1e-8, "{}", u(0));
+        assert!((u(1) - 1.0).abs() < 1e-5, "{}", u(1));
+        assert!((found.values[0] - 0.02).abs() < 1e-7 && found.values[1].abs() < 1e-4);
+        // With a prior 0 ± 1 mm the normal equations say the same.
+        let normal = &row * row.transpose() + DMatrix::identity(2, 2);
+        let by_prior = normal.try_inverse().expect("with a prior");
+        assert!((by_prior - found.covariance).amax() < 1e-5);
+    }
 }
