@@ -323,7 +323,7 @@ fn outlier_section<'a>(answer: &IdentificationReport<'_>) -> Section<'a> {
     let section = Section::new("Readings that do not fit");
     if outliers.is_empty() {
         return section.paragraph(format!(
-            "No reading lies beyond the limit of studentised residuals, {limit:.2} (5 % for all together, \
+            "No reading lies beyond the limit of studentised residuals, {limit:.2} (1 % for all together, \
              Bonferroni)."
         ));
     }
@@ -332,9 +332,10 @@ fn outlier_section<'a>(answer: &IdentificationReport<'_>) -> Section<'a> {
     });
     section
         .paragraph(format!(
-            "{} numbers lie beyond the limit of studentised residuals, {limit:.2} (5 % for all together, \
-             Bonferroni); they count all the same. The first are:",
-            outliers.len()
+            "{} numbers lie beyond the limit of studentised residuals, {limit:.2} (1 % for all together, \
+             Bonferroni); {}. The first are:",
+            outliers.len(),
+            if answer.found.weights.contains(&0.0) { "their rows are left out" } else { "they count all the same" }
         ))
         .table(Table::new(["reading", "channel", "studentised residual"]).rows(rows))
 }
