@@ -85,7 +85,8 @@ fn decided<'a>(report: Report<'a>, found: &FormEvaluation, decision: Decision) -
 fn references(found: &FormEvaluation) -> Table {
     let element = found.fitted.element;
     let has_radius = element.criteria().contains(&Criterion::MinimumCircumscribed);
-    let mut headings = vec!["reference element", "", "µm", "U", "noise adds"];
+    let mut headings =
+        vec!["reference element", "", "form deviation, µm", "U, µm", "noise adds, µm"];
     if has_radius {
         headings.push("radius, mm");
     }
