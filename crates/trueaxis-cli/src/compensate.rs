@@ -73,6 +73,9 @@ struct ValuesArguments {
     /// Write to this file instead of standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Replace the file, also one that this program did not write or that was edited since
+    #[arg(long)]
+    force: bool,
 }
 
 /// Which error is compensated.
@@ -124,5 +127,6 @@ fn run_values(arguments: ValuesArguments) -> Outcome {
         output: arguments.output,
     };
     // The values know their form.
-    Door { format: crate::output::Format::Text, report: None }.ask(&question)
+    Door { format: crate::output::Format::Text, report: None, force: arguments.force }
+        .ask(&question)
 }

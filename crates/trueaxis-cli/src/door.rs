@@ -2,13 +2,38 @@
 
 use crate::output::{Answer as Shown, Format, Outcome, report_and, show, tell};
 use crate::report_file::{unusable, write_report};
+use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use std::path::Path;
-use trueaxis::files::disk;
-use trueaxis::files::output::{REPORT, may_write, no_file_twice};
+use std::path::{Path, PathBuf};
+use trueaxis::files::noted_disk;
+use trueaxis::files::output::{Guard, Output, no_file_twice};
 use trueaxis::input::Diagnostics;
 use trueaxis::questions::{Answer, Content, NewFile, Question, complete, may_put};
 use trueaxis::report::refused_json;
+
+/// What is shown and written.
+#[derive(Args)]
+pub struct DoorArguments {
+    /// Write an HTML report to this file
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
+    /// Accepted as before: without --report no report is written
+    #[arg(long, hide = true, conflicts_with = "report")]
+    no_report: bool,
+    /// Replace files that are there, also those that this program did not write or that were edited since
+    #[arg(long)]
+    force: bool,
+    /// Output as text or as one JSON document
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+impl DoorArguments {
+    /// The door with these arguments.
+    pub fn door(&self) -> Door<'_> {
+        Door { format: self.format, report: self.report.as_deref(), force: self.force }
+    }
+}
 
 /// The form of the answer.
 pub struct Door<'a> {
@@ -16,6 +41,8 @@ pub struct Door<'a> {
     pub format: Format,
     /// The file of the HTML report.
     pub report: Option<&'a Path>,
+    /// Whether files are replaced that this program did not write.
+    pub force: bool,
 }
 
 impl Door<'_> {
@@ -26,12 +53,14 @@ impl Door<'_> {
 
     fn try_ask<Q: Question>(&self, question: &Q) -> Result<Outcome, Outcome> {
         let mut problems = Diagnostics::new();
-        let input = question.read(&disk(), &mut problems);
-        let report_file = self.report.map(|path| (path.to_owned(), &REPORT));
+        let (files, read) = noted_disk();
+        let input = question.read(&files, &mut problems);
+        let guard = Guard { read, force: self.force };
+        let report_file = self.report.map(|path| Output::file("--report", path));
         let outputs: Vec<_> =
             question.outputs(input.as_ref()).into_iter().chain(report_file).collect();
-        outputs.iter().for_each(|(path, kind)| may_write(path, kind, &mut problems));
-        let paths: Vec<&Path> = outputs.iter().map(|(path, _)| path.as_path()).collect();
+        outputs.iter().for_each(|output| guard.may_write(output, &mut problems));
+        let paths: Vec<&Path> = outputs.iter().map(|output| output.path.as_path()).collect();
         no_file_twice(&paths, &mut problems);
         let answer = match input.filter(|_| !problems.has_errors()) {
             Some(input) => answer(question, input, &mut problems),
@@ -49,7 +78,7 @@ impl Door<'_> {
         };
         let files = answer.files();
         let mut taken = Diagnostics::new();
-        may_put(&files, &mut taken);
+        may_put(&files, &guard, &mut taken);
         if taken.has_errors() {
             report_and(taken.clone(), "nothing was written");
             if self.format == Format::Json {

@@ -2,8 +2,8 @@
 
 mod form;
 
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use trueaxis::questions::{Evaluate, ReadingsFile};
@@ -80,7 +80,7 @@ struct ReadingArguments {
     /// The machine whose errors the circle states (iso230-4): what differs from its file by more than U
     #[arg(long, value_name = "MACHINE.toml")]
     machine: Option<PathBuf>,
-    /// Write the machine file with these errors to this file; one that is there with another content is not replaced
+    /// Write the machine file with these errors to this file
     #[arg(short = 'o', long, value_name = "OUT.toml", requires = "machine")]
     output: Option<PathBuf>,
     /// A tolerance of a figure, by its name in JSON: "A=10 um", "G_b=8 um", "x.range=5 um"; may be repeated
@@ -92,12 +92,8 @@ struct ReadingArguments {
     /// How tolerances decide: with U, or by the value alone
     #[arg(long, value_enum, default_value = "iso14253-1")]
     rule: Rule,
-    /// Write an HTML report to this file
-    #[arg(long, value_name = "FILE")]
-    report: Option<PathBuf>,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 /// How a tolerance decides.
@@ -186,5 +182,5 @@ fn run_readings(arguments: &ReadingArguments) -> Outcome {
         tolerance_file: arguments.tolerance_file.clone(),
         is_simple: arguments.rule == Rule::Simple,
     };
-    Door { format: arguments.format, report: arguments.report.as_deref() }.ask(&question)
+    arguments.door.door().ask(&question)
 }

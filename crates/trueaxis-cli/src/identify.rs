@@ -8,8 +8,8 @@ mod tables;
 mod thermal;
 mod tools;
 
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 use trueaxis::questions::IdentifyExpansion;
@@ -76,9 +76,8 @@ struct ExpansionArguments {
     /// Write the report as an HTML page
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
@@ -96,6 +95,6 @@ pub fn run(arguments: &Arguments) -> Outcome {
 
 fn run_expansion(arguments: &ExpansionArguments) -> Outcome {
     let (runs, output) = (arguments.files.clone(), arguments.output.clone());
-    let door = Door { format: arguments.format, report: arguments.report.as_deref() };
+    let door = arguments.door.door();
     door.ask(&IdentifyExpansion { runs, output })
 }

@@ -1,7 +1,7 @@
 //! `trueaxis measure`: readings of the instruments of a campaign on a virtual machine.
 
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use clap::Args;
 use std::path::PathBuf;
 use trueaxis::questions::{Measure, MeasurePart};
@@ -47,16 +47,12 @@ pub struct Arguments {
     /// The random seed, instead of that of [truth]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Write an HTML report to this file
-    #[arg(long, value_name = "FILE")]
-    report: Option<PathBuf>,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    let door = Door { format: arguments.format, report: arguments.report.as_deref() };
+    let door = arguments.door.door();
     if let Some(study) = &arguments.part {
         return door.ask(&MeasurePart {
             study: study.clone(),

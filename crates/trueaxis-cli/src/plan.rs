@@ -3,8 +3,8 @@
 mod surface;
 mod tool_setting;
 
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 use trueaxis::questions::PlanMeasurement;
@@ -54,9 +54,8 @@ struct CampaignArguments {
     /// Write a report
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
@@ -74,5 +73,5 @@ fn run_campaign(arguments: &CampaignArguments) -> Outcome {
         control: arguments.control.clone(),
         output: arguments.output.clone(),
     };
-    Door { format: arguments.format, report: arguments.report.as_deref() }.ask(&question)
+    arguments.door.door().ask(&question)
 }

@@ -1,8 +1,8 @@
 //! `trueaxis pose`: where the tool is, nominal and actual, one pose or a table of them.
 
 use crate::arguments::MachineArguments;
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use clap::Args;
 use std::path::PathBuf;
 use trueaxis::questions::{AskPose, Positions};
@@ -33,17 +33,16 @@ pub struct Arguments {
     /// Also the nominal and actual place of every body in the machine frame
     #[arg(long, conflicts_with = "at_file")]
     bodies: bool,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 pub fn run(arguments: Arguments) -> Outcome {
-    let Arguments { machine, at, at_file, approach, bodies, format } = arguments;
+    let Arguments { machine, at, at_file, approach, bodies, door } = arguments;
     let at = match at_file {
         Some(path) => Positions::File(path),
         None => Positions::One(at.unwrap_or_default()),
     };
     let question = AskPose { machine: machine.choice(None), at, approach, bodies };
-    Door { format, report: None }.ask(&question)
+    door.door().ask(&question)
 }

@@ -1,8 +1,8 @@
 //! `trueaxis post`: cutter locations into an NC program.
 
 use crate::arguments::MachineArguments;
-use crate::door::Door;
-use crate::output::{Answer, Format, Outcome, finish};
+use crate::door::DoorArguments;
+use crate::output::{Answer, Outcome, finish};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use trueaxis::input::Diagnostics;
@@ -90,9 +90,8 @@ pub struct Arguments {
     /// Write the programs of the set-up of a test piece, and a file for its readings, into this folder
     #[arg(long, value_name = "FOLDER")]
     set_up: Option<PathBuf>,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -178,5 +177,5 @@ pub fn run(arguments: Arguments) -> Outcome {
         verify: arguments.verify,
         set_up: arguments.set_up,
     };
-    Door { format: arguments.format, report: None }.ask(&question)
+    arguments.door.door().ask(&question)
 }

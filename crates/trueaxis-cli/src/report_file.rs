@@ -10,10 +10,10 @@ use trueaxis::report::DrawingError;
 pub fn write_report(path: &Path, page: Result<String, DrawingError>) -> Result<(), Outcome> {
     let shown = path.display().to_string();
     let page =
-        page.map_err(|e| unusable("no-report", &shown, &e.to_string(), "use --no-report"))?;
-    files::write(path, page.as_bytes()).map_err(|e| {
+        page.map_err(|e| unusable("no-report", &shown, &e.to_string(), "leave out --report"))?;
+    files::write_in_folder(path, page.as_bytes()).map_err(|e| {
         let message = format!("cannot be written: {e}");
-        unusable("unwritable-file", &shown, &message, "name another --report, or use --no-report")
+        unusable("unwritable-file", &shown, &message, "name another --report, or leave it out")
     })?;
     tell(&format!("report: {shown}"));
     Ok(())

@@ -1,8 +1,8 @@
 //! `trueaxis simulate`: an NC program on the actual machine.
 
 use crate::arguments::{LogStart, MachineArguments};
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use clap::Args;
 use std::path::PathBuf;
 use trueaxis::questions::{MachineChoice, ProgramChoice, Simulate};
@@ -33,21 +33,14 @@ pub struct Arguments {
     /// Write the nominal and actual pose of every body at every point of the path to this CSV file
     #[arg(long, value_name = "FILE.csv")]
     bodies: Option<PathBuf>,
-    /// File of the HTML report
-    #[arg(long, value_name = "FILE", default_value = "simulation.html")]
-    report: PathBuf,
-    /// Write no report
-    #[arg(long, conflicts_with = "report")]
-    no_report: bool,
     /// Without the collision check
     #[arg(long)]
     no_collisions: bool,
     /// List errors of the program and continue after them
     #[arg(long)]
     keep_going: bool,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 /// The program, its set-up, and the division of its moves.
@@ -118,12 +111,10 @@ impl ProgramArguments {
 }
 
 pub fn run(arguments: Arguments) -> Outcome {
-    let Arguments { machine, program, path, bodies, no_collisions, keep_going, format, .. } =
-        arguments;
+    let Arguments { machine, program, path, bodies, no_collisions, keep_going, door } = arguments;
     let (machine, program) = program.choices(machine);
     let program = ProgramChoice { keep_going, ..program };
-    let report = Some(&*arguments.report).filter(|_| !arguments.no_report);
-    let pictures = report.is_some();
+    let pictures = door.report.is_some();
     let question = Simulate { machine, program, path, bodies, pictures, no_collisions };
-    Door { format, report }.ask(&question)
+    door.door().ask(&question)
 }

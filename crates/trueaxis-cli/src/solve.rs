@@ -1,8 +1,8 @@
 //! `trueaxis solve`: axis positions for a tool pose.
 
 use crate::arguments::MachineArguments;
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use clap::Args;
 use std::path::PathBuf;
 use trueaxis::questions::{Solve, SolveTarget};
@@ -42,16 +42,15 @@ pub struct Arguments {
     /// A path: CSV with tip_x_mm,tip_y_mm,tip_z_mm,axis_i,axis_j,axis_k; one best branch
     #[arg(long, value_name = "PATH.csv", conflicts_with_all = ["tip", "axis"])]
     path: Option<PathBuf>,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 pub fn run(arguments: Arguments) -> Outcome {
-    let Arguments { machine, tip, axis, from, path, format } = arguments;
+    let Arguments { machine, tip, axis, from, path, door } = arguments;
     let target = match path {
         Some(path) => SolveTarget::Path(path),
         None => SolveTarget::Pose(tip.unwrap_or_default(), axis.unwrap_or_default()),
     };
-    Door { format, report: None }.ask(&Solve { machine: machine.choice(None), target, from })
+    door.door().ask(&Solve { machine: machine.choice(None), target, from })
 }

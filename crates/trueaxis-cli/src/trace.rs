@@ -1,8 +1,8 @@
 //! `trueaxis trace`: every stage of the simulation for one block.
 
 use crate::arguments::MachineArguments;
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use crate::simulate::ProgramArguments;
 use clap::Args;
 use trueaxis::questions::TraceBlock;
@@ -24,13 +24,12 @@ pub struct Arguments {
     /// The block: its number N, else its line
     #[arg(long, value_name = "N")]
     block: usize,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 pub fn run(arguments: Arguments) -> Outcome {
-    let Arguments { machine, program, block, format } = arguments;
+    let Arguments { machine, program, block, door } = arguments;
     let (machine, program) = program.choices(machine);
-    Door { format, report: None }.ask(&TraceBlock { machine, program, block })
+    door.door().ask(&TraceBlock { machine, program, block })
 }

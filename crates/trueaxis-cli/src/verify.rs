@@ -1,7 +1,7 @@
 //! `trueaxis verify`: comparisons, calibrations, certificates and measured parts.
 
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use clap::Args;
 use std::path::PathBuf;
 use trueaxis::questions::{
@@ -45,16 +45,12 @@ pub struct Arguments {
     /// With --before-after: write one table of readings per path and compensation into this folder
     #[arg(short, long, value_name = "FOLDER", requires = "before_after", conflicts_with_all = ["file", "diff", "certificate", "part"])]
     output: Option<PathBuf>,
-    /// Write an HTML report to this file
-    #[arg(long, value_name = "FILE")]
-    report: Option<PathBuf>,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    let door = Door { format: arguments.format, report: arguments.report.as_deref() };
+    let door = arguments.door.door();
     if let Some(campaign) = &arguments.before_after {
         let (campaign, output) = (campaign.clone(), arguments.output.clone());
         return door.ask(&LaserBeforeAfter { campaign, output });

@@ -340,7 +340,7 @@ fn places_for_a_report() {
     // An unusable study leaves the report of last week alone.
     let study = format!("{BAD}study-far-fixture.toml");
     refused(
-        &["predict", &study, "--report", &old],
+        &["predict", &study, "--report", &old, "--force"],
         &[("path-leaves-travel", "study-far-fixture.toml")],
     );
     assert!(std::fs::read_to_string(old).expect("still there").ends_with("last week"));

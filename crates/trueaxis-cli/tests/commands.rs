@@ -380,7 +380,7 @@ fn help_and_version() {
         ("check", "Exit status"),
         ("pose", "--at-file"),
         ("solve", "--path"),
-        ("predict", "--no-report"),
+        ("predict", "--report"),
     ] {
         let ran = trueaxis(&[verb, "--help"]);
         assert_eq!((ran.status, ran.err.as_str()), (0, ""));

@@ -46,7 +46,7 @@ fn the_machine_file_is_new_and_the_input_stays() {
     assert!(std::fs::read_to_string(&page).expect("a page").contains("Correlation"));
     let refused = trueaxis(&["identify", CAMPAIGN, "-o", "machines/lei-hsu-mill/machine.toml"]);
     assert_eq!(refused.status, 2);
-    assert!(refused.err.contains("not overwritten"), "{}", refused.err);
+    assert!(refused.err.contains("is read by this command"), "{}", refused.err);
     assert_eq!(std::fs::read_to_string(&machine).expect("the machine file"), before);
 }
 

@@ -56,7 +56,7 @@ fn every_control_gets_its_programs_and_readings_are_never_overwritten() {
         fs::write(&path, "# filled in by hand").expect("written");
         let (status, err) = post(&folder, control);
         assert_eq!(status, 2, "{err}");
-        assert!(err.contains("set-up.toml") && err.contains("not overwritten"), "{err}");
+        assert!(err.contains("set-up.toml") && err.contains("--force"), "{err}");
         assert_eq!(fs::read_to_string(&path).expect("a file"), "# filled in by hand");
     }
 }

@@ -2,6 +2,7 @@
 
 pub mod output;
 mod scope;
+mod written;
 
 pub use scope::within;
 
@@ -9,8 +10,8 @@ use scope::{readable, writable};
 use std::fs;
 use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
 use trueaxis_input::{Diagnostics, Files, Source};
 use trueaxis_machine::Machine;
 
@@ -34,6 +35,43 @@ impl Source for Disk {
 /// The files of this computer.
 pub fn disk() -> Files {
     Files::new(Disk)
+}
+
+/// The files of this computer, and a list of those that are read.
+pub fn noted_disk() -> (Files, FilesRead) {
+    let read = FilesRead::default();
+    (Files::new(NotedDisk(read.clone())), read)
+}
+
+/// The files that a command has read.
+#[derive(Debug, Clone, Default)]
+pub struct FilesRead(Arc<Mutex<Vec<PathBuf>>>);
+
+impl FilesRead {
+    fn push(&self, path: &Path) {
+        if let Ok(mut read) = self.0.lock() {
+            read.push(path.to_owned());
+        }
+    }
+
+    /// Whether this file is one of them, under any name.
+    pub fn contains(&self, path: &Path) -> bool {
+        self.0.lock().is_ok_and(|read| read.iter().any(|other| output::same_file(path, other)))
+    }
+}
+
+/// The disk, with a list of what is read.
+struct NotedDisk(FilesRead);
+
+impl Source for NotedDisk {
+    fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
+        self.0.push(path);
+        Disk.read(path)
+    }
+
+    fn is_file(&self, path: &Path) -> bool {
+        Disk.is_file(path)
+    }
 }
 
 /// Reads and checks a machine file with the tables that it names.
@@ -99,9 +137,12 @@ pub fn write_folder(place: &Path, files: &[(String, String)]) -> io::Result<()> 
     let Some(name) = place.file_name() else {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "the path does not name a folder"));
     };
-    let hidden = format!(".trueaxis-{}-{}.part", std::process::id(), name.display());
+    let hidden = format!("{PART_BEGINS}{}-{}{PART_ENDS}", std::process::id(), name.display());
     let part = place.with_file_name(hidden);
+    remove_dead_parts(place);
     fs::create_dir(&part)?;
+    // Held while the folder is filled, where folders can be locked; a folder without it is of a run that was killed.
+    let lock = fs::File::open(&part).and_then(|folder| folder.lock().map(|()| folder)).ok();
     let fill = || {
         for (name, text) in files {
             let mut file = fs::File::create_new(part.join(name))?;
@@ -113,17 +154,49 @@ pub fn write_folder(place: &Path, files: &[(String, String)]) -> io::Result<()> 
     };
     fill().inspect_err(|_| {
         let _ = fs::remove_dir_all(&part);
-    })
+    })?;
+    drop(lock);
+    files.iter().for_each(|(name, _)| written::note(&place.join(name)));
+    Ok(())
 }
 
-/// Writes a file as [`write()`] does; its folder is made where there is none.
+/// Writes a file as [`write()`] does, and notes that this program wrote it; its folder is made where there is
+/// none.
 ///
 /// # Errors
 /// What the disk says.
 pub fn write_in_folder(path: &Path, content: &[u8]) -> io::Result<()> {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
     folder.map_or(Ok(()), fs::create_dir_all)?;
-    write(path, content)
+    write(path, content)?;
+    written::note(path);
+    Ok(())
+}
+
+/// How the names of files and folders begin and end that are being written.
+const PART_BEGINS: &str = ".trueaxis-";
+const PART_ENDS: &str = ".part";
+
+/// Removes what runs left that were killed while they wrote beside this place: parts that nobody holds.
+fn remove_dead_parts(place: &Path) {
+    let folder = place.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.flatten() {
+        let (name, path) = (entry.file_name(), entry.path());
+        let name = name.to_string_lossy();
+        let is_part = name.starts_with(PART_BEGINS) && name.ends_with(PART_ENDS);
+        // A pipe or a link is not ours, and is not opened.
+        let Ok(kind) = entry.file_type() else { continue };
+        if !is_part || !(kind.is_file() || kind.is_dir()) {
+            continue;
+        }
+        let held = fs::File::open(&path).and_then(|part| Ok(part.try_lock()?).map(|()| part));
+        let _ = match held {
+            Ok(_) if kind.is_dir() => fs::remove_dir_all(&path),
+            Ok(_) => fs::remove_file(&path),
+            Err(error) => Err(error),
+        };
+    }
 }
 
 /// Writes into a [`Part`], many bytes at a time.
@@ -154,11 +227,20 @@ impl Part {
         // Two threads may write the same file: each has a part of its own, the last one in place stays.
         static COUNT: AtomicUsize = AtomicUsize::new(0);
         let (process, count) = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
-        let hidden = format!(".trueaxis-{process}-{count}-{}.part", name.display());
+        let hidden = format!("{PART_BEGINS}{process}-{count}-{}{PART_ENDS}", name.display());
         let part = place.with_file_name(hidden);
-        // A file that another process left under that name, a link perhaps, is not followed.
-        let _ = fs::remove_file(&part);
-        let file = fs::File::create_new(&part)?;
+        remove_dead_parts(place);
+        let file = loop {
+            // A file that another process left under that name, a link perhaps, is not followed.
+            let _ = fs::remove_file(&part);
+            let file = fs::File::create_new(&part)?;
+            // Held while it is written; not all disks have locks.
+            let _ = file.lock();
+            // A run that removes dead parts may have come between the two lines above.
+            if part.exists() {
+                break file;
+            }
+        };
         if let Ok(mut parts) = PARTS.lock() {
             parts.push(part.clone());
         }
@@ -182,6 +264,17 @@ impl Part {
     pub fn put_in_place(self) -> io::Result<()> {
         self.file.sync_all()?;
         fs::rename(&self.part, &self.place)
+    }
+
+    /// The same, and notes that this program wrote it.
+    ///
+    /// # Errors
+    /// Whatever the disk says.
+    pub fn put_and_note(self) -> io::Result<()> {
+        let place = self.place.clone();
+        self.put_in_place()?;
+        written::note(&place);
+        Ok(())
     }
 }
 

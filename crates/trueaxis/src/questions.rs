@@ -83,7 +83,7 @@ pub use verify::{
     VerifyReadings,
 };
 
-use crate::files::output::Kind;
+use crate::files::output::{Guard, Output};
 use crate::files::{self, Part};
 use serde::Serialize;
 use serde_json::Value;
@@ -110,7 +110,7 @@ pub trait Question {
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input>;
 
     /// Files that the answer will write: checked before the work, not after it.
-    fn outputs(&self, _input: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
+    fn outputs(&self, _input: Option<&Self::Input>) -> Vec<Output> {
         Vec::new()
     }
 
@@ -181,8 +181,6 @@ pub struct NewFile {
 pub enum Content {
     /// These bytes.
     Bytes(Vec<u8>),
-    /// These bytes, where nothing else stands: a person may have filled in or edited what was written before.
-    Kept(Vec<u8>),
     /// What was written beside its place during the work.
     Part(Part),
     /// It is a folder, new or empty: its files by name, all or none.
@@ -194,31 +192,26 @@ impl NewFile {
         Self { name, path: path.into(), content: Content::Bytes(content.into()) }
     }
 
-    /// As one that does not replace a file with another content.
-    fn kept(name: &'static str, path: impl Into<PathBuf>, content: impl Into<Vec<u8>>) -> Self {
-        Self { name, path: path.into(), content: Content::Kept(content.into()) }
-    }
-
     /// Puts it in its place.
     ///
     /// # Errors
     /// What the disk says.
     pub fn write(self) -> io::Result<()> {
         match self.content {
-            Content::Bytes(bytes) | Content::Kept(bytes) => {
-                files::write_in_folder(&self.path, &bytes)
-            }
-            Content::Part(part) => part.put_in_place(),
+            Content::Bytes(bytes) => files::write_in_folder(&self.path, &bytes),
+            Content::Part(part) => part.put_and_note(),
             Content::Folder(written) => files::write_folder(&self.path, &written),
         }
     }
 }
 
 /// Whether files may be put in their places, all of them: what keeps them out goes to `problems`.
-pub fn may_put(new: &[NewFile], problems: &mut Diagnostics) {
+pub fn may_put(new: &[NewFile], guard: &Guard, problems: &mut Diagnostics) {
     for file in new {
-        if let Content::Kept(bytes) = &file.content {
-            files::output::same_or_nothing(&file.path, bytes, problems);
+        match &file.content {
+            Content::Bytes(bytes) => guard.may_put(&file.path, Some(bytes), problems),
+            Content::Part(_) => guard.may_put(&file.path, None, problems),
+            Content::Folder(_) => {}
         }
         let inside =
             |other: &NewFile| other.path != file.path && other.path.starts_with(&file.path);
@@ -263,7 +256,7 @@ fn in_folder(
     files: impl IntoIterator<Item = (String, Vec<u8>)>,
 ) -> Vec<NewFile> {
     let Some(folder) = folder else { return Vec::new() };
-    let file = |(name, content)| NewFile::kept("written", folder.join(name), content);
+    let file = |(name, content)| NewFile::of("written", folder.join(name), content);
     files.into_iter().map(file).collect()
 }
 

@@ -1,7 +1,7 @@
 //! `trueaxis compensate adapt`: a path moved onto the measured blank.
 
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use crate::post::OnOff;
 use clap::Args;
 use std::path::PathBuf;
@@ -23,12 +23,6 @@ pub struct AdaptArguments {
     /// The study
     #[arg(value_name = "STUDY.toml")]
     file: PathBuf,
-    /// File of the HTML report
-    #[arg(long, value_name = "FILE", default_value = "report.html")]
-    report: PathBuf,
-    /// Write no report
-    #[arg(long, conflicts_with = "report")]
-    no_report: bool,
     /// Write the program of the adapted path to this file
     #[arg(short, long, value_name = "FILE", requires = "control")]
     output: Option<PathBuf>,
@@ -44,9 +38,8 @@ pub struct AdaptArguments {
     /// Write the adapted cutter locations to this file
     #[arg(long, value_name = "FILE.cls")]
     cl: Option<PathBuf>,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 pub fn run(arguments: &AdaptArguments) -> Outcome {
@@ -57,6 +50,5 @@ pub fn run(arguments: &AdaptArguments) -> Outcome {
         tolerance: arguments.tolerance.clone(),
         cl: arguments.cl.clone(),
     };
-    let report = Some(arguments.report.as_path()).filter(|_| !arguments.no_report);
-    Door { format: arguments.format, report }.ask(&question)
+    arguments.door.door().ask(&question)
 }

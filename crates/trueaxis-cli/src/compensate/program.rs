@@ -1,8 +1,8 @@
 //! `trueaxis compensate program`: an NC program rewritten for the actual machine.
 
 use crate::arguments::MachineArguments;
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use clap::Args;
 use std::path::PathBuf;
 use trueaxis::questions::CompensateProgram;
@@ -84,12 +84,8 @@ pub struct ProgramArguments {
     /// For the machine alone, without a part, though the workpiece grows and its temperature is not given
     #[arg(long)]
     machine_only: bool,
-    /// Write an HTML report to this file
-    #[arg(long, value_name = "FILE")]
-    report: Option<PathBuf>,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 pub fn run(arguments: &ProgramArguments) -> Outcome {
@@ -111,5 +107,5 @@ pub fn run(arguments: &ProgramArguments) -> Outcome {
         limit_axis: arguments.limit_axis.clone(),
         machine_only: arguments.machine_only,
     };
-    Door { format: arguments.format, report: arguments.report.as_deref() }.ask(&question)
+    arguments.door.door().ask(&question)
 }

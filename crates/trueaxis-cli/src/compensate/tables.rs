@@ -1,8 +1,8 @@
 //! `trueaxis compensate tables`: the tables of one control.
 
 use crate::arguments::MachineArguments;
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use crate::report_file::unusable;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -63,9 +63,8 @@ pub struct TablesArguments {
     /// For the machine alone, without a part, though the workpiece grows and its temperature is not given
     #[arg(long)]
     machine_only: bool,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 /// Which control.
@@ -123,5 +122,5 @@ pub fn run(arguments: TablesArguments) -> Outcome {
         machine_only: arguments.machine_only,
         piece: arguments.piece,
     };
-    Door { format: arguments.format, report: None }.ask(&question)
+    arguments.door.door().ask(&question)
 }

@@ -1,7 +1,7 @@
 //! `trueaxis evaluate form`: an element through points and its form deviation.
 
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use trueaxis::form::Element;
@@ -40,12 +40,8 @@ pub struct Arguments {
     /// The standard uncertainty of a point along the normal, such as "1 um"
     #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
     u: Option<String>,
-    /// Write an HTML report to this file
-    #[arg(long, value_name = "FILE")]
-    report: Option<PathBuf>,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 /// The elements by their names.
@@ -80,5 +76,5 @@ pub fn run(arguments: &Arguments) -> Outcome {
         tolerance: arguments.tolerance.clone(),
         u: arguments.u.clone(),
     };
-    Door { format: arguments.format, report: arguments.report.as_deref() }.ask(&question)
+    arguments.door.door().ask(&question)
 }

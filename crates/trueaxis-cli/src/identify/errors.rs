@@ -1,7 +1,7 @@
 //! `trueaxis identify CAMPAIGN.toml`: the errors of the machine.
 
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use clap::Args;
 use std::path::PathBuf;
 use trueaxis::questions::Identify;
@@ -15,15 +15,11 @@ pub struct CampaignArguments {
     /// Write a machine file with the identified errors, their uncertainties and sources
     #[arg(short, long, value_name = "MACHINE.toml")]
     output: Option<PathBuf>,
-    /// Write an HTML report to this file
-    #[arg(long, value_name = "FILE")]
-    report: Option<PathBuf>,
     /// Try other signs, orders, senses, sides and units of the readings, and name those that fit far better
     #[arg(long)]
     check_conventions: bool,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 pub fn run(arguments: &CampaignArguments) -> Outcome {
@@ -34,5 +30,5 @@ pub fn run(arguments: &CampaignArguments) -> Outcome {
         output: arguments.output.clone(),
         check_conventions: arguments.check_conventions,
     };
-    Door { format: arguments.format, report: arguments.report.as_deref() }.ask(&question)
+    arguments.door.door().ask(&question)
 }

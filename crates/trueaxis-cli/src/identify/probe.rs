@@ -1,7 +1,7 @@
 //! `trueaxis identify probe FILE.toml`: a touch probe on a ring or a sphere.
 
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use clap::Args;
 use std::path::PathBuf;
 use trueaxis::questions::{IdentifyProbe, ProbePrograms};
@@ -46,16 +46,12 @@ pub struct Arguments {
     /// Spindle orientation of the table, of the programs, and of hits that state none
     #[arg(long, value_name = "ANGLE", allow_negative_numbers = true)]
     orientation: Option<String>,
-    /// Write an HTML report to this file
-    #[arg(long, value_name = "FILE")]
-    report: Option<PathBuf>,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    let door = Door { format: arguments.format, report: arguments.report.as_deref() };
+    let door = arguments.door.door();
     if let Some(folder) = arguments.programs.as_ref().or(arguments.corrections.as_ref()) {
         return door.ask(&ProbePrograms {
             study: arguments.file.clone(),

@@ -1,7 +1,7 @@
 //! `trueaxis identify rtcp FILE.toml`: the rotary centres.
 
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use clap::Args;
 use std::path::PathBuf;
 use trueaxis::questions::{IdentifyRtcp, RtcpPrograms};
@@ -38,14 +38,13 @@ pub struct Arguments {
     /// Write a machine file with the identified centres
     #[arg(short, long, value_name = "MACHINE.toml")]
     output: Option<PathBuf>,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
     let (study, output) = (arguments.file.clone(), arguments.output.clone());
-    let door = Door { format: arguments.format, report: None };
+    let door = arguments.door.door();
     match &arguments.programs {
         Some(folder) => {
             let (control, output) = (arguments.control.clone(), folder.clone());

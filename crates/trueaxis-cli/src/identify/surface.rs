@@ -1,7 +1,7 @@
 //! `trueaxis identify surface HITS.toml`: hits of a probing program.
 
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use clap::Args;
 use std::path::PathBuf;
 use trueaxis::questions::IdentifySurface;
@@ -23,16 +23,12 @@ pub struct Arguments {
     /// Write the table of deviations to this file
     #[arg(short, long, value_name = "FILE.csv")]
     output: Option<PathBuf>,
-    /// Write an HTML report to this file
-    #[arg(long, value_name = "FILE")]
-    report: Option<PathBuf>,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
     let question =
         IdentifySurface { study: arguments.file.clone(), output: arguments.output.clone() };
-    Door { format: arguments.format, report: arguments.report.as_deref() }.ask(&question)
+    arguments.door.door().ask(&question)
 }

@@ -1,7 +1,7 @@
 //! `trueaxis identify tables FILE.toml`: error tables from readings of single error motions.
 
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use clap::Args;
 use std::path::PathBuf;
 use trueaxis::questions::IdentifyTables;
@@ -27,16 +27,12 @@ pub struct Arguments {
     /// Write the machine file with these tables into this new folder
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
-    /// Write the report as an HTML page
-    #[arg(long, value_name = "FILE.html")]
-    report: Option<PathBuf>,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
     let (study, output) = (arguments.file.clone(), arguments.output.clone());
-    let door = Door { format: arguments.format, report: arguments.report.as_deref() };
+    let door = arguments.door.door();
     door.ask(&IdentifyTables { study, output })
 }

@@ -1,7 +1,7 @@
 //! `trueaxis identify thermal`: linear thermal models from logs.
 
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use clap::Args;
 use std::path::PathBuf;
 use trueaxis::questions::IdentifyThermal;
@@ -30,16 +30,12 @@ pub struct Arguments {
     /// A later log that the model has not seen; may be repeated
     #[arg(long, value_name = "LOG.csv")]
     score: Vec<PathBuf>,
-    /// Write an HTML report to this file
-    #[arg(long, value_name = "FILE")]
-    report: Option<PathBuf>,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
     let question =
         IdentifyThermal { study: arguments.file.clone(), score: arguments.score.clone() };
-    Door { format: arguments.format, report: arguments.report.as_deref() }.ask(&question)
+    arguments.door.door().ask(&question)
 }

@@ -1,7 +1,7 @@
 //! `trueaxis identify tools MACHINE.toml SETUP.toml LOG`: tools from the log of a tool setting.
 
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use clap::Args;
 use std::path::PathBuf;
 use trueaxis::questions::{IdentifyTools, ToolChoice};
@@ -34,12 +34,8 @@ pub struct Arguments {
     /// Write the lines for the set-up file to this file
     #[arg(short, long, value_name = "FILE.toml")]
     output: Option<PathBuf>,
-    /// Write an HTML report to this file
-    #[arg(long, value_name = "FILE")]
-    report: Option<PathBuf>,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
@@ -53,5 +49,5 @@ pub fn run(arguments: &Arguments) -> Outcome {
         date: arguments.date.clone(),
         output: arguments.output.clone(),
     };
-    Door { format: arguments.format, report: arguments.report.as_deref() }.ask(&question)
+    arguments.door.door().ask(&question)
 }

@@ -1,7 +1,7 @@
 //! `trueaxis plan probe-surface FILE.toml`: a probing path over a surface.
 
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use clap::Args;
 use std::path::PathBuf;
 use trueaxis::questions::PlanSurface;
@@ -25,9 +25,8 @@ pub struct Arguments {
     /// Write the program and the table of the points into this folder
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
@@ -36,5 +35,5 @@ pub fn run(arguments: &Arguments) -> Outcome {
         control: arguments.control.clone(),
         output: arguments.output.clone(),
     };
-    Door { format: arguments.format, report: None }.ask(&question)
+    arguments.door.door().ask(&question)
 }

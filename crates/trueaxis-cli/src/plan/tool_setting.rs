@@ -1,7 +1,7 @@
 //! `trueaxis plan tool-setting MACHINE.toml SETUP.toml`: tools measured at a tool setter.
 
-use crate::door::Door;
-use crate::output::{Format, Outcome};
+use crate::door::DoorArguments;
+use crate::output::Outcome;
 use clap::Args;
 use std::path::PathBuf;
 use trueaxis::questions::{PlanToolSetting, ToolChoice};
@@ -32,9 +32,8 @@ pub struct Arguments {
     /// Write the program into this folder
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
-    /// Output as text or as one JSON document
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    door: DoorArguments,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
@@ -47,5 +46,5 @@ pub fn run(arguments: &Arguments) -> Outcome {
         control: arguments.control.clone(),
         output: arguments.output.clone(),
     };
-    Door { format: arguments.format, report: None }.ask(&question)
+    arguments.door.door().ask(&question)
 }

@@ -77,11 +77,12 @@ impl Folder {
         path
     }
 
-    /// The names of what is in it, hidden files too.
+    /// The names of what is in it, hidden files too, but for the list of what was written.
     pub fn names(&self) -> Vec<String> {
         let entries = std::fs::read_dir(&self.0).expect("a folder").flatten();
         let mut names: Vec<String> =
             entries.map(|e| e.file_name().to_string_lossy().into_owned()).collect();
+        names.retain(|name| name != ".trueaxis-written");
         names.sort();
         names
     }

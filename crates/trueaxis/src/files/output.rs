@@ -1,94 +1,98 @@
 //! Files that an answer leaves: what may be replaced.
+//!
+//! One rule for all commands: a file that the command reads is never replaced; another one only if this program
+//! wrote it and nobody has changed it since, or if the same would be written, or by force.
 
-use std::fs::{self, File};
-use std::io::Read;
-use std::path::Path;
+use super::{FilesRead, written};
+use std::fs;
+use std::path::{Path, PathBuf};
 use trueaxis_input::{Diagnostics, Place};
 
-/// A kind of file that is written.
-#[derive(Debug, PartialEq, Eq)]
-pub struct Kind {
+/// A file that will be written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Output {
     /// The argument that names it.
     pub argument: &'static str,
-    /// What it is, for messages.
-    pub name: &'static str,
-    /// How such files begin, in small letters; anything else is not overwritten.
-    pub begins: &'static [&'static [u8]],
-    /// What such files contain, in any case; empty if they are known by their beginning.
-    pub contains: &'static str,
+    /// Where it goes.
+    pub path: PathBuf,
     /// Whether its folder is made where there is none.
     pub makes_folder: bool,
 }
 
-impl Kind {
+impl Output {
     /// A file in a folder that is there.
-    pub const fn file(
-        argument: &'static str,
-        name: &'static str,
-        begins: &'static [&'static [u8]],
-    ) -> Self {
-        Self { argument, name, begins, contains: "", makes_folder: false }
+    pub fn file(argument: &'static str, path: impl Into<PathBuf>) -> Self {
+        Self { argument, path: path.into(), makes_folder: false }
     }
 
-    /// Tables of virtual readings in a folder that is made where there is none.
-    pub const fn readings(begins: &'static [&'static [u8]]) -> Self {
-        let file = Self::file("-o", "a table of virtual readings", begins);
-        Self { makes_folder: true, ..file }
+    /// A file in a folder that is made where there is none.
+    pub fn in_new_folder(argument: &'static str, path: impl Into<PathBuf>) -> Self {
+        Self { makes_folder: true, ..Self::file(argument, path) }
     }
 }
 
-/// The HTML report.
-pub const REPORT: Kind = Kind::file("--report", "a report", &[b"<!doctype html"]);
-
-/// Whether a file may be put there: the folder exists, and what stands there is of the same kind.
-pub fn may_write(path: &Path, kind: &Kind, problems: &mut Diagnostics) {
-    let Kind { argument, name, .. } = kind;
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let will_be = kind.makes_folder && !folder.exists();
-    let (message, hint) = if path.file_name().is_none() || path.is_dir() {
-        ("is a folder, not a file".to_owned(), format!("name a file in it: {argument} FOLDER/FILE"))
-    } else if !folder.is_dir() && !will_be {
-        let hint = format!("make the folder first, or name another {argument}");
-        ("its folder does not exist".to_owned(), hint)
-    } else if !replaceable(path, kind) {
-        let hint = format!("it is not overwritten; name another {argument}");
-        (format!("is there, and is not {name}"), hint)
-    } else {
-        return;
-    };
-    problems.error("unwritable-file", Place::whole(&path.display().to_string()), message, &hint);
+/// Keeps files of a person from being replaced.
+#[derive(Debug, Default)]
+pub struct Guard {
+    /// What the command has read.
+    pub read: FilesRead,
+    /// Whether files that this program did not write may be replaced, too.
+    pub force: bool,
 }
 
-/// Nothing, an empty file or one of the kind; never a study, a machine or a device.
-fn replaceable(path: &Path, kind: &Kind) -> bool {
-    /// What marks a file stands within this many bytes.
-    const HEAD: u64 = 1 << 14;
-    let Ok(found) = fs::metadata(path) else { return true };
-    if !found.is_file() {
-        return false;
+impl Guard {
+    /// Whether a file may be put there, before its content is known.
+    pub fn may_write(&self, output: &Output, problems: &mut Diagnostics) {
+        let Output { argument, path, makes_folder } = output;
+        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let will_be = *makes_folder && !folder.exists();
+        let (message, hint) = if path.file_name().is_none() || path.is_dir() {
+            ("is a folder, not a file", format!("name a file in it: {argument} FOLDER/FILE"))
+        } else if !folder.is_dir() && !will_be {
+            let hint = format!("make the folder first, or name another {argument}");
+            ("its folder does not exist", hint)
+        } else if let Some(reason) = self.keeps(path, None) {
+            (reason, self.hint(path, argument))
+        } else {
+            return;
+        };
+        let place = Place::whole(&path.display().to_string());
+        problems.error("unwritable-file", place, message.to_owned(), &hint);
     }
-    let mut head = Vec::new();
-    // A file that cannot be read is not known to be of the kind.
-    let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
-    head.make_ascii_lowercase();
-    let marked = || String::from_utf8_lossy(&head).contains(&kind.contains.to_ascii_lowercase());
-    let is_kind = kind.begins.iter().any(|b| head.starts_with(b));
-    read.is_ok() && (head.is_empty() || is_kind || !kind.contains.is_empty() && marked())
-}
 
-/// Whether nothing stands there, or the same: what was written once may have been filled in or edited since.
-pub fn same_or_nothing(path: &Path, content: &[u8], problems: &mut Diagnostics) {
-    let (message, hint) = match fs::metadata(path) {
-        Err(_) => return,
-        Ok(found) if !found.is_file() => ("is no ordinary file", "name another folder"),
-        Ok(_) if fs::read(path).is_ok_and(|there| there == content) => return,
-        Ok(_) => (
-            "is there with another content",
-            "it may have been filled in or edited: it is not overwritten; remove it or name another folder",
-        ),
-    };
-    let place = Place::whole(&path.display().to_string());
-    problems.error("unwritable-file", place, message.to_owned(), hint);
+    /// Whether this content may be put there.
+    pub fn may_put(&self, path: &Path, content: Option<&[u8]>, problems: &mut Diagnostics) {
+        if let Some(reason) = self.keeps(path, content) {
+            let place = Place::whole(&path.display().to_string());
+            let hint = self.hint(path, "file or folder");
+            problems.error("unwritable-file", place, reason.to_owned(), &hint);
+        }
+    }
+
+    /// Why what stands there stays, if it does.
+    fn keeps(&self, path: &Path, content: Option<&[u8]>) -> Option<&'static str> {
+        fs::symlink_metadata(path).ok()?;
+        let Ok(found) = fs::metadata(path) else {
+            return Some("is a link that leads nowhere");
+        };
+        let same = || content.is_some_and(|new| fs::read(path).is_ok_and(|there| there == new));
+        if !found.is_file() {
+            Some("is no ordinary file")
+        } else if self.read.contains(path) {
+            Some("is read by this command, and would be replaced")
+        } else if self.force || found.len() == 0 || written::is_ours(path) || same() {
+            None
+        } else {
+            Some("is there, and was not written by this program or was edited since")
+        }
+    }
+
+    fn hint(&self, path: &Path, argument: &str) -> String {
+        match self.read.contains(path) {
+            true => format!("an input is never replaced; name another {argument}"),
+            false => format!("name another {argument}, or replace it with --force"),
+        }
+    }
 }
 
 /// Whether the folder is new or empty, and the one that it stands in is there.
@@ -126,25 +130,22 @@ fn same_place(one: &Path, other: &Path) -> bool {
     one == other || place(one).is_some_and(|p| Some(p) == place(other))
 }
 
-/// Whether two paths name one file.
+/// Whether two paths name one file, through links of both kinds.
 pub fn same_file(one: &Path, other: &Path) -> bool {
-    match (one.canonicalize(), other.canonicalize()) {
-        (Ok(one), Ok(other)) => one == other,
-        _ => one == other,
-    }
+    let real = || Some(one.canonicalize().ok()? == other.canonicalize().ok()?);
+    one == other || real().unwrap_or(false) || one_node(one, other)
 }
 
-/// Whether a machine file may be put there: never over the files that were read, nor over anything that is
-/// not a machine file.
-pub fn may_write_machine(path: &Path, read: &[&Path], problems: &mut Diagnostics) {
-    let is_machine = |text: String| text.is_empty() || text.contains("[machine]");
-    let (message, hint) = if read.iter().any(|other| same_file(path, other)) {
-        ("is the input, which is not overwritten", "name another file: -o identified.toml")
-    } else if path.is_dir() || path.exists() && !fs::read_to_string(path).is_ok_and(is_machine) {
-        ("is there, and is not a machine file", "it is not overwritten; name another -o")
-    } else {
-        return;
-    };
-    let place = Place::whole(&path.display().to_string());
-    problems.error("unwritable-file", place, message.to_owned(), hint);
+/// Whether two names lead to one place on the disk, as hard links do.
+#[cfg(unix)]
+fn one_node(one: &Path, other: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let node = |path: &Path| fs::metadata(path).map(|found| (found.dev(), found.ino())).ok();
+    node(one).is_some_and(|found| Some(found) == node(other))
+}
+
+/// Other systems do not say it.
+#[cfg(not(unix))]
+fn one_node(_: &Path, _: &Path) -> bool {
+    false
 }

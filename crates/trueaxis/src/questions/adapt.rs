@@ -1,7 +1,7 @@
 //! How is a path moved onto the blank that was measured?
 
 use super::{Answer, NewFile, Question, Tell, named_control, with_diagnostics};
-use crate::files::output::Kind;
+use crate::files::output::Output;
 use crate::report;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -37,10 +37,6 @@ pub struct AdaptAnswer {
     files: Vec<NewFile>,
     asked_for_files: bool,
 }
-
-/// What `--cl` may replace: nothing that is there and not empty but an adapted path.
-const CL: Kind =
-    Kind::file("--cl", "an adapted path", &[b"$$ adapted by trueaxis", b"# adapted by trueaxis"]);
 
 impl Adapt {
     fn options(&self, problems: &mut Diagnostics) -> Option<PostOptions> {
@@ -111,8 +107,9 @@ impl Question for Adapt {
         Some((study?, options))
     }
 
-    fn outputs(&self, _: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
-        self.cl.iter().map(|path| (path.clone(), &CL)).collect()
+    fn outputs(&self, _: Option<&Self::Input>) -> Vec<Output> {
+        let program = self.output.iter().map(|(path, _)| Output::file("-o", path));
+        program.chain(self.cl.iter().map(|path| Output::file("--cl", path))).collect()
     }
 
     fn answer(

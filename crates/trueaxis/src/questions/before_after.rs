@@ -1,7 +1,7 @@
 //! What would a laser read before and after a compensation?
 
 use super::{Answer, NewFile, Question, Tell, with_diagnostics};
-use crate::files::output::Kind;
+use crate::files::output::Output;
 use crate::report::{self, BeforeAfterDocument, BeforeAfterReport};
 use crate::verify::before_after::{BeforeAfter, Curve, before_after, read_before_after};
 use serde_json::Value;
@@ -29,7 +29,6 @@ pub struct BeforeAfterAnswer {
 }
 
 const READINGS_BEGIN: &str = "# virtual readings of trueaxis verify --before-after";
-const READINGS: Kind = Kind::readings(&[READINGS_BEGIN.as_bytes()]);
 
 impl LaserBeforeAfter {
     /// Where the readings of a path under a compensation go.
@@ -73,12 +72,12 @@ impl Question for LaserBeforeAfter {
         problems.keep(read_before_after(files, &self.campaign, None))
     }
 
-    fn outputs(&self, input: Option<&BeforeAfter>) -> Vec<(PathBuf, &'static Kind)> {
+    fn outputs(&self, input: Option<&BeforeAfter>) -> Vec<Output> {
         let Some(study) = input else { return Vec::new() };
         let all = (0..study.real.paths.len())
             .flat_map(|path| study.states.iter().map(move |state| (path, *state)));
         all.filter_map(|(path, state)| self.place(study, path, state))
-            .map(|path| (path, &READINGS))
+            .map(|path| Output::in_new_folder("-o", path))
             .collect()
     }
 

@@ -1,9 +1,8 @@
 //! What do the readings show by a standard?
 
 use super::{Answer, NewFile, Question, Tell, with_diagnostics};
-use crate::files::output::{Kind, may_write};
 use crate::report;
-use crate::verify::write_back::{FIRST_LINE, write_back};
+use crate::verify::write_back::write_back;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use trueaxis_condition::ball_bar::{BallBar, MachineErrors};
@@ -136,9 +135,6 @@ impl EvaluateAnswer {
     }
 }
 
-/// What a table may replace: one of this kind.
-const TABLE: Kind = Kind::file("--write-back", "a table of this command", &[FIRST_LINE.as_bytes()]);
-
 /// An error motion as a table next to the machine file.
 #[derive(Debug)]
 struct Table {
@@ -204,7 +200,6 @@ impl Evaluate {
         let stem = self.path().file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let name = format!("{stem}-{}.csv", back.error);
         let path = machine_path.with_file_name(&name);
-        may_write(&path, &TABLE, problems);
         let sign = match back.negated {
             true => "sign changed: this body moves against its command (ISO 841)\n",
             false => "",
@@ -278,10 +273,10 @@ impl Evaluate {
         let mut new = Vec::new();
         if let Some(output) = &self.output {
             let table = |(name, text): &(String, String)| {
-                NewFile::kept("table", output.with_file_name(name), text.clone())
+                NewFile::of("table", output.with_file_name(name), text.clone())
             };
             new.extend(found.tables.iter().map(table));
-            new.push(NewFile::kept("machine file", output, found.text.clone()));
+            new.push(NewFile::of("machine file", output, found.text.clone()));
         }
         Some((found, new))
     }

@@ -1,7 +1,7 @@
 //! What does a surface deviate by, after the hits of a probing program?
 
 use super::{Answer, NewFile, Question, Tell, with_diagnostics};
-use crate::files::output::Kind;
+use crate::files::output::Output;
 use crate::report;
 use serde_json::Value;
 use std::path::PathBuf;
@@ -28,9 +28,6 @@ pub struct HitsAnswer {
     output: Option<PathBuf>,
 }
 
-const TABLE: Kind =
-    Kind::file("-o", "a table of deviations", &[b"# ", b"point,x_mm,y_mm,z_mm,i,j,k,deviation_um"]);
-
 impl Question for IdentifySurface {
     type Input = HitsStudy;
     type Answer = HitsAnswer;
@@ -39,8 +36,8 @@ impl Question for IdentifySurface {
         problems.keep(read_hits(files, &self.study))
     }
 
-    fn outputs(&self, _: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
-        self.output.iter().map(|path| (path.clone(), &TABLE)).collect()
+    fn outputs(&self, _: Option<&Self::Input>) -> Vec<Output> {
+        self.output.iter().map(|path| Output::file("-o", path)).collect()
     }
 
     fn answer(

@@ -1,12 +1,12 @@
 //! Which errors does the machine have?
 
 use super::{Answer, NewFile, Question, Tell, with_diagnostics};
-use crate::files::output::{Kind, may_write_machine};
+use crate::files::output::Output;
 use crate::report;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use trueaxis_calibrate::identify::convention::{ConventionCheck, check_conventions};
-use trueaxis_calibrate::identify::covariance_file::{BEGINS, covariance_file};
+use trueaxis_calibrate::identify::covariance_file::covariance_file;
 use trueaxis_calibrate::identify::errors::{Identification, identify};
 use trueaxis_calibrate::identify::machine_file::{MachineFile, machine_file};
 use trueaxis_calibrate::identify::records::{
@@ -116,9 +116,6 @@ impl Question for Identify {
         let read =
             problems.keep(read_campaign(files, &self.campaign, |root, _| Some(read_options(root))));
         let (campaign, options) = read?;
-        if let Some(output) = &self.output {
-            may_write_machine(output, &[&campaign.machine_path, &campaign.path], problems);
-        }
         let dropped = self.dropped(&campaign, problems)?;
         let records = read_records_with(&campaign, dropped, problems)?;
         if self.check_conventions && problems.has_errors() {
@@ -128,13 +125,9 @@ impl Question for Identify {
         Some((campaign, options, records))
     }
 
-    fn outputs(&self, _: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
-        // A folder that is missing is reported with the machine file.
-        let there = |output: &&PathBuf| {
-            output.parent().is_none_or(|f| f.as_os_str().is_empty() || f.is_dir())
-        };
-        let output = self.output.iter().filter(there);
-        output.map(|output| (covariance_path(output), &COVARIANCE)).collect()
+    fn outputs(&self, _: Option<&Self::Input>) -> Vec<Output> {
+        let both = |output: &PathBuf| [output.clone(), covariance_path(output)];
+        self.output.iter().flat_map(both).map(|path| Output::file("-o", path)).collect()
     }
 
     fn answer(
@@ -175,8 +168,6 @@ fn warn_of_conventions(check: &ConventionCheck, campaign: &Path, problems: &mut 
         problems.warn("other-convention", place, message, "is that how they were taken?");
     }
 }
-
-const COVARIANCE: Kind = Kind::file("-o", "values and covariance", &[BEGINS.as_bytes()]);
 
 /// `machine-covariance.toml` for `machine.toml`.
 fn covariance_path(output: &Path) -> PathBuf {

@@ -1,7 +1,7 @@
 //! What would instruments read on a machine whose errors are known?
 
 use super::{Answer, NewFile, Question, Tell, with_diagnostics};
-use crate::files::output::Kind;
+use crate::files::output::Output;
 use crate::report;
 use serde_json::Value;
 use std::fmt::Write;
@@ -39,15 +39,7 @@ pub struct MeasureAnswer {
 }
 
 const READINGS_BEGIN: &str = "# virtual readings of trueaxis measure";
-const READINGS: Kind = Kind::readings(&[READINGS_BEGIN.as_bytes()]);
 const TRUTH_BEGIN: &str = "# true values of virtual readings";
-/// The first line of older files.
-const OLD_TRUTH_BEGIN: &[u8] = b"# the truth ";
-const TRUTH: Kind = Kind::file(
-    "--truth",
-    "the truth of a virtual measurement",
-    &[TRUTH_BEGIN.as_bytes(), OLD_TRUTH_BEGIN],
-);
 
 impl Measure {
     /// Where the table of each instrument goes.
@@ -111,14 +103,14 @@ impl Question for Measure {
         }))
     }
 
-    fn outputs(&self, input: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
+    fn outputs(&self, input: Option<&Self::Input>) -> Vec<Output> {
         let mut tables = input.map(|(campaign, _)| self.tables(campaign)).unwrap_or_default();
         if let Some((campaign, real)) = input {
             let own = stage_tables(campaign, real);
             tables.extend(own.iter().filter_map(|(path, _)| self.stage_table(path)));
         }
-        let tables = tables.into_iter().map(|path| (path, &READINGS));
-        tables.chain(self.truth.clone().map(|path| (path, &TRUTH))).collect()
+        let tables = tables.into_iter().map(|path| Output::in_new_folder("-o", path));
+        tables.chain(self.truth.iter().map(|path| Output::file("--truth", path))).collect()
     }
 
     fn answer(

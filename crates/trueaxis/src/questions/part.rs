@@ -2,7 +2,7 @@
 
 use super::predict::refuse;
 use super::{Answer, NewFile, Question, Tell, with_diagnostics};
-use crate::files::output::Kind;
+use crate::files::output::Output;
 use crate::report;
 use crate::verify::part::{PartError, PartResult, PartStudy, read_part, verify_part};
 use schemars::JsonSchema;
@@ -138,7 +138,6 @@ pub struct PointEntry {
 }
 
 const POINTS_BEGIN: &str = "# points of trueaxis measure --part";
-const POINTS: Kind = Kind::file("-o", "a table of virtual points", &[POINTS_BEGIN.as_bytes()]);
 
 impl Question for MeasurePart {
     type Input = (Study, f64);
@@ -161,8 +160,8 @@ impl Question for MeasurePart {
         Some((study?, u_mm?))
     }
 
-    fn outputs(&self, _: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
-        self.output.iter().map(|path| (path.clone(), &POINTS)).collect()
+    fn outputs(&self, _: Option<&Self::Input>) -> Vec<Output> {
+        self.output.iter().map(|path| Output::file("-o", path)).collect()
     }
 
     fn answer(

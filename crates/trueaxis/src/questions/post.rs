@@ -5,7 +5,7 @@ mod test_piece;
 
 use super::words::{self, argument};
 use super::{Answer, MachineChoice, NewFile, Question, Tell, named_control};
-use crate::files::output::Kind;
+use crate::files::output::Output;
 use crate::report::{self, PostReport};
 use serde_json::Value;
 use std::path::PathBuf;
@@ -70,14 +70,6 @@ pub struct PostAnswer {
     set_up: Vec<NewFile>,
     set_up_is_sound: bool,
 }
-
-const SET_UP: Kind = Kind {
-    argument: "--set-up",
-    name: "a file that may be overwritten",
-    begins: &[],
-    contains: "",
-    makes_folder: true,
-};
 
 /// The template of a control, to be edited.
 pub fn template(control: &str, problems: &mut Diagnostics) -> Option<&'static str> {
@@ -203,7 +195,7 @@ impl Post {
             let posted = problems.keep(post(machine, path, &options))?;
             is_sound &= verify(machine, &posted, &options).is_within(&options);
             let file = format!("{name}.{}", extension(options.control));
-            files.push(NewFile::kept("set-up", folder.join(file), posted.text));
+            files.push(NewFile::of("set-up", folder.join(file), posted.text));
         }
         let readings = folder.join(set_up::READINGS);
         files.push(NewFile::of("readings to fill in", readings, set_up.readings.clone()));
@@ -227,9 +219,11 @@ impl Question for Post {
         Some((machine?, file?, options?, set_up?))
     }
 
-    fn outputs(&self, _: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
-        // What a person has filled in is never overwritten.
-        self.set_up.iter().map(|folder| (folder.join(set_up::READINGS), &SET_UP)).collect()
+    fn outputs(&self, _: Option<&Self::Input>) -> Vec<Output> {
+        let readings = |folder: &PathBuf| folder.join(set_up::READINGS);
+        let set_up = self.set_up.iter().map(readings);
+        let set_up = set_up.map(|path| Output::in_new_folder("--set-up", path));
+        [Output::file("-o", &self.output)].into_iter().chain(set_up).collect()
     }
 
     fn answer(

@@ -1,7 +1,7 @@
 //! What does a touch probe add to its readings?
 
 use super::{Answer, NewFile, Question, Tell, with_diagnostics};
-use crate::files::output::Kind;
+use crate::files::output::Output;
 use crate::report;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -35,9 +35,6 @@ pub struct ProbeAnswer {
     pub found: Vec<Calibration>,
     files: Vec<NewFile>,
 }
-
-const CORRECTED: Kind = Kind::file("-o", "a table of corrected hits", &[b"point_x_mm,"]);
-const TABLE: Kind = Kind::file("--table", "a direction table", &[b"# stylus "]);
 
 impl IdentifyProbe {
     fn orientation_rad(&self, problems: &mut Diagnostics) -> Option<f64> {
@@ -106,9 +103,9 @@ impl Question for IdentifyProbe {
         Some((study?, files.clone(), orientation_rad))
     }
 
-    fn outputs(&self, _: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
-        let corrected = self.correct.iter().map(|(_, path)| (path.clone(), &CORRECTED));
-        corrected.chain(self.table.iter().map(|path| (path.clone(), &TABLE))).collect()
+    fn outputs(&self, _: Option<&Self::Input>) -> Vec<Output> {
+        let corrected = self.correct.iter().map(|(_, path)| Output::file("-o", path));
+        corrected.chain(self.table.iter().map(|path| Output::file("--table", path))).collect()
     }
 
     fn answer(

@@ -2,7 +2,7 @@
 
 use super::workpiece::{machine_or_part, on_top};
 use super::{Answer, MachineChoice, NewFile, Question, Tell, named_control, with_diagnostics};
-use crate::files::output::{Kind, same_file};
+use crate::files::output::Output;
 use crate::report;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -62,10 +62,6 @@ pub struct ProgramAnswer {
     /// What it can cost that the temperature of the workpiece is not known.
     price: Option<String>,
 }
-
-/// What may be replaced: nothing that is there and not empty, but a compensated program.
-const PROGRAM: Kind =
-    Kind { contains: MARK, ..Kind::file("--output", "a compensated program of ours", &[]) };
 
 impl CompensateProgram {
     fn options(&self, problems: &mut Diagnostics) -> Option<ProgramOptions> {
@@ -156,11 +152,6 @@ impl Question for CompensateProgram {
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
         let options = self.options(problems);
         let job = self.job(files, problems);
-        if same_file(&self.output, &self.program) {
-            let place = Place::whole(&self.output.display().to_string());
-            let message = "is the program itself".to_owned();
-            problems.error("one-file-twice", place, message, "name another --output");
-        }
         let ((job, price), options) = (job?, options?);
         let mut mark = self.mark(files, job.machine.name());
         if price.is_some() {
@@ -169,9 +160,9 @@ impl Question for CompensateProgram {
         Some((job, ProgramOptions { mark, ..options }, price))
     }
 
-    fn outputs(&self, _: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
-        let unproved = self.keep_unproved.then(|| (unproved(&self.output), &PROGRAM));
-        [(self.output.clone(), &PROGRAM)].into_iter().chain(unproved).collect()
+    fn outputs(&self, _: Option<&Self::Input>) -> Vec<Output> {
+        let unproved = self.keep_unproved.then(|| Output::file("--output", unproved(&self.output)));
+        [Output::file("--output", &self.output)].into_iter().chain(unproved).collect()
     }
 
     fn answer(

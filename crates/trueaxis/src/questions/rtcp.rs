@@ -1,7 +1,7 @@
 //! Where are the rotary centres?
 
 use super::{Answer, NewFile, Question, Tell, with_diagnostics};
-use crate::files::output::may_write_machine;
+use crate::files::output::Output;
 use crate::report;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -45,10 +45,11 @@ impl Question for IdentifyRtcp {
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
         let study = problems.keep(read_rtcp(files, &self.study, Purpose::Result))?;
-        if let Some(output) = &self.output {
-            may_write_machine(output, &[&study.machine_path, &study.path], problems);
-        }
         Some((study, files.clone()))
+    }
+
+    fn outputs(&self, _: Option<&Self::Input>) -> Vec<Output> {
+        self.output.iter().map(|path| Output::file("-o", path)).collect()
     }
 
     fn answer(

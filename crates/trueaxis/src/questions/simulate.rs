@@ -4,11 +4,11 @@ mod table;
 
 use super::{Answer, Content, MachineChoice, NewFile, ProgramChoice, Question, Tell};
 use crate::files::Part;
-use crate::files::output::Kind;
+use crate::files::output::Output;
 use crate::report::{self, Simulation};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use table::{BODIES, PathTable, bodies_table};
+use table::{PathTable, bodies_table};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_motion::{Findings, Job, Observer, Progress, Series};
 use trueaxis_report::{Report, document};
@@ -64,9 +64,9 @@ impl Question for Simulate {
         job
     }
 
-    fn outputs(&self, _: Option<&Job>) -> Vec<(PathBuf, &'static Kind)> {
-        let path = self.path.iter().map(|path| (path.clone(), table::kind(path)));
-        path.chain(self.bodies.iter().map(|path| (path.clone(), &BODIES))).collect()
+    fn outputs(&self, _: Option<&Job>) -> Vec<Output> {
+        let path = self.path.iter().map(|path| Output::file("--path", path));
+        path.chain(self.bodies.iter().map(|path| Output::file("--bodies", path))).collect()
     }
 
     fn answer(

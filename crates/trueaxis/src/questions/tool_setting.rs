@@ -1,6 +1,7 @@
 //! How are the tools of a set-up measured on the machine, and what do the readings say?
 
 use super::{Answer, NewFile, Question, Tell, in_folder, named_control, with_diagnostics};
+use crate::files::output::Output;
 use crate::report;
 use serde_json::Value;
 use std::path::PathBuf;
@@ -152,11 +153,8 @@ impl Question for IdentifyTools {
         Some((setting, log))
     }
 
-    fn outputs(
-        &self,
-        _: Option<&Self::Input>,
-    ) -> Vec<(PathBuf, &'static crate::files::output::Kind)> {
-        self.output.iter().map(|path| (path.clone(), &LINES)).collect()
+    fn outputs(&self, _: Option<&Self::Input>) -> Vec<Output> {
+        self.output.iter().map(|path| Output::file("-o", path)).collect()
     }
 
     fn answer(
@@ -170,9 +168,6 @@ impl Question for IdentifyTools {
         Some(ToolsAnswer { readings, date: self.date.clone(), output: self.output.clone() })
     }
 }
-
-const LINES: crate::files::output::Kind =
-    crate::files::output::Kind::file("-o", "measured tools", &[b"# measured tools"]);
 
 impl Answer for ToolsAnswer {
     fn document(&self, problems: &Diagnostics) -> Value {

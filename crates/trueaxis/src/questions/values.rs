@@ -3,7 +3,7 @@
 use super::words::{self, argument};
 use super::workpiece::{self, Asked, accepted};
 use super::{Answer, MachineChoice, NewFile, Question, Tell};
-use crate::files::output::Kind;
+use crate::files::output::Output;
 use crate::report;
 use serde_json::Value;
 use std::path::PathBuf;
@@ -67,12 +67,6 @@ pub struct ValuesAnswer {
 }
 
 /// What may be replaced: such a file.
-const VALUES: Kind = Kind::file(
-    "--output",
-    "a file of compensation values",
-    &[b"# trueaxis compensation values", b"{\n  \"schema\": \"trueaxis/compensate/"],
-);
-
 impl CompensateValues {
     fn of(&self) -> Compensation {
         if self.machine_only { Compensation::Machine } else { self.of }
@@ -242,8 +236,8 @@ impl Question for CompensateValues {
         Some((machine, orders, price))
     }
 
-    fn outputs(&self, _: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
-        self.output.iter().map(|path| (path.clone(), &VALUES)).collect()
+    fn outputs(&self, _: Option<&Self::Input>) -> Vec<Output> {
+        self.output.iter().map(|path| Output::file("--output", path)).collect()
     }
 
     fn answer(

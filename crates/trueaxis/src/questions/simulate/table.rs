@@ -1,6 +1,5 @@
 //! The path of a simulation as a file: CSV, or Parquet by its extension.
 
-use crate::files::output::Kind;
 use crate::files::{Part, PartWriter};
 use std::io;
 #[cfg(feature = "parquet")]
@@ -14,19 +13,8 @@ use trueaxis_machine::Machine;
 use trueaxis_motion::ParquetTable;
 use trueaxis_motion::{BodyTable, CsvTable, Observer};
 
-const CSV: Kind = Kind::file("--path", "the table of a path", &[b"time_s,program,line,tool,"]);
-/// The table of bodies.
-pub(super) const BODIES: Kind =
-    Kind::file("--bodies", "the table of bodies", &[b"time_s,program,line,body,"]);
-const PARQUET: Kind = Kind::file("--path", "a Parquet file", &[b"par1"]);
-
 fn is_parquet(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("parquet"))
-}
-
-/// What may be replaced there.
-pub(super) fn kind(path: &Path) -> &'static Kind {
-    if is_parquet(path) { &PARQUET } else { &CSV }
 }
 
 /// Whether this program was built to write such a file.
