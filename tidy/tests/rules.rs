@@ -108,6 +108,23 @@ fn unexplained_panics() -> Vec<String> {
     found
 }
 
+/// Every `unsafe` has its reason in the lines before it.
+fn unsafe_without_reason() -> Vec<String> {
+    let mut found = Vec::new();
+    for (path, text) in sources() {
+        let lines: Vec<&str> = text.lines().collect();
+        for (i, line) in lines.iter().enumerate() {
+            let code = line.split("//").next().unwrap_or("");
+            let is_block = code.contains("unsafe {") || code.contains("unsafe impl");
+            let reason = (i.saturating_sub(3)..=i).any(|k| lines[k].contains("// SAFETY: "));
+            if is_block && !reason {
+                found.push(format!("{}:{}: why is it sound? // SAFETY: …", shown(&path), i + 1));
+            }
+        }
+    }
+    found
+}
+
 /// Public numbers of the crates whose unit is neither in their name nor in their doc comment.
 fn numbers_without_unit() -> Vec<String> {
     let mut found = Vec::new();
@@ -558,12 +575,13 @@ fn prose_is_parted_from_code() {
 
 #[test]
 fn house_rules() {
-    let rules: [(&str, Rule); 17] = [
+    let rules: [(&str, Rule); 18] = [
         ("files are short", long_files),
         ("every source says what is in it", without_head),
         ("names say what is inside", vague_names),
         ("no closure changes its argument", closures_with_changed_arguments),
         ("no panic without `// why:`", unexplained_panics),
+        ("no `unsafe` without `// SAFETY:`", unsafe_without_reason),
         ("public numbers name their unit", numbers_without_unit),
         ("cited equations exist", lost_equations),
         ("no place of a developer's machine", foreign_places),

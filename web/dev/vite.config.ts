@@ -1,6 +1,6 @@
 import { defineConfig } from "vite";
 
-// `npm run dev`: the page as it is being written, answered by a running `trueaxis serve --port 7841`
+// `npm run dev`: the page as it is being written, answered by a running `trueaxis serve --port 7841 --no-token`
 // (or SERVER=http://127.0.0.1:PORT). The server asks for its own origin, so the proxy names that.
 const server = process.env.SERVER ?? "http://127.0.0.1:7841";
 const answered = {

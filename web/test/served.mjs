@@ -37,12 +37,13 @@ async function live(server) {
 
 /**
  * Starts `trueaxis serve` on a folder; `stop` ends it. ADDRESS names one that runs already (`npm run dev`): then
- * the pages of other folders come from the sources, too.
+ * the pages of other folders come from the sources, too. Without a token, as every window of a test has cookies of its
+ * own; OPTIONS without --no-token gives the link with one.
  */
-export async function serve(folder = root) {
+export async function serve(folder = root, options = ["--no-token"]) {
   if (process.env.ADDRESS && folder === root) return { address: process.env.ADDRESS, stop: () => {} };
   if (!existsSync(binary)) throw new Error(`${binary} is not there: cargo build --release`);
-  const child = spawn(binary, ["serve", folder, "--port", "0"], { stdio: ["ignore", "pipe", "inherit"] });
+  const child = spawn(binary, ["serve", folder, "--port", "0", ...options], { stdio: ["ignore", "pipe", "inherit"] });
   const address = await new Promise((found, failed) => {
     let text = "";
     child.stdout.on("data", (piece) => {
@@ -97,7 +98,7 @@ export async function open(browser, address, { dark = false, width = 1400, heigh
   page.on("pageerror", (error) => complaints.push(`error: ${error.message}`));
   page.on("request", (request) => {
     const url = request.url();
-    const own = url.startsWith(address) || url.startsWith("data:") || url.startsWith("blob:");
+    const own = url.startsWith(new URL("/", address).href) || url.startsWith("data:") || url.startsWith("blob:");
     if (!own) complaints.push(`request to ${url}`);
   });
   page.setDefaultTimeout(Number(process.env.PATIENCE ?? 30_000));

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { open, picture } from "./served.mjs";
+import { open, picture, root, serve } from "./served.mjs";
 import { browser, server } from "./shared.mjs";
 
 /** What the server says of its folder. */
@@ -84,4 +84,30 @@ test("the arrow keys reach every tab, and an unknown address is the first page",
   await page.locator(".card").first().waitFor({ state: "visible" });
   assert.deepEqual(complaints, []);
   await context.close();
+});
+
+test("the printed link with its token opens the page; its requests and its socket carry the cookie", async (t) => {
+  if (process.env.ADDRESS) return t.skip("the page that is being written is served without a token");
+  const served = await serve(root, []);
+  try {
+    assert.match(served.address, /\/\?token=[0-9a-f]{32}$/);
+    const { page, context, complaints } = await open(browser, served.address);
+    await page.waitForSelector(".card");
+    assert.equal(page.url().includes("token"), false);
+    assert.ok((await project(page)).files.length > 10);
+    // The examples on the page came over the socket.
+    assert.ok((await page.locator(".card").count()) > 3);
+    const [cookie] = await context.cookies();
+    assert.equal(cookie.name, `trueaxis_token_${new URL(served.address).port}`);
+    assert.deepEqual([cookie.httpOnly, cookie.sameSite], [true, "Strict"]);
+    assert.deepEqual(complaints, []);
+    await context.close();
+    const without = await browser.newContext();
+    const refused = await (await without.newPage()).goto(new URL("/", served.address).href);
+    assert.equal(refused.status(), 401);
+    assert.match(await refused.text(), /needs its token/);
+    await without.close();
+  } finally {
+    await served.stop();
+  }
 });

@@ -26,8 +26,9 @@ mod solve;
 mod trace;
 mod verify;
 
-use clap::{Parser, Subcommand};
-use output::Outcome;
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser, Subcommand};
+use output::{Answer, Outcome};
 use std::process::ExitCode;
 
 /// TrueAxis computes the actual tool pose of a multi-axis machine tool and its effect on the part
@@ -54,9 +55,15 @@ Examples:
 
 Exit status: 0 done, 1 the verdict is no, 2 unusable input or arguments.")]
 struct Command {
+    /// Print the licences of everything in this program and in its page
+    #[arg(long, exclusive = true)]
+    licenses: bool,
     #[command(subcommand)]
-    verb: Verb,
+    verb: Option<Verb>,
 }
+
+/// Made by `scripts/sbom --licenses`.
+const LICENSES: &str = include_str!("../licenses.txt");
 
 #[derive(Subcommand)]
 enum Verb {
@@ -105,7 +112,13 @@ fn main() -> ExitCode {
     if std::env::args().any(|a| a == "--dialect" || a.starts_with("--dialect=")) {
         output::tell("`--dialect` is now called `--control`; the old name still works");
     }
-    let outcome = match command.verb {
+    let Some(verb) = command.verb else {
+        if command.licenses {
+            return exit(output::show(&Answer::Text(LICENSES.to_owned())));
+        }
+        Command::command().error(ErrorKind::MissingSubcommand, "name a command").exit();
+    };
+    let outcome = match verb {
         Verb::Check(arguments) => check::run(&arguments),
         Verb::Pose(arguments) => pose::run(arguments),
         Verb::Solve(arguments) => solve::run(arguments),
@@ -124,6 +137,10 @@ fn main() -> ExitCode {
         #[cfg(feature = "serve")]
         Verb::Serve(arguments) => serve::run(&arguments),
     };
+    exit(outcome)
+}
+
+fn exit(outcome: Outcome) -> ExitCode {
     match outcome {
         Outcome::Done => ExitCode::SUCCESS,
         Outcome::No => ExitCode::from(1),

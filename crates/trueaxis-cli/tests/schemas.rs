@@ -207,7 +207,7 @@ const REQUESTS: &[(&str, &str)] = &[
 #[test]
 fn requests_and_answers_of_the_server_fit_their_schemas() {
     use serde_json::json;
-    let served = client::serve_kept(client::repository(), &["--port", "0"]);
+    let served = client::serve_kept(client::repository(), &client::OPEN);
     for (name, body) in REQUESTS {
         let body: Value = serde_json::from_str(body).expect("JSON");
         fits(&format!("serve-{name}-request"), &body);
@@ -244,7 +244,7 @@ fn requests_and_answers_of_the_server_fit_their_schemas() {
 #[test]
 fn saved_files_fit_their_schemas() {
     use serde_json::json;
-    let served = client::serve(client::project("schemas"), &["--port", "0"]);
+    let served = client::serve(client::project("schemas"), &client::OPEN);
     let body = json!({ "path": "mill/new.toml", "text": "", "version": null, "window": "a" });
     fits("serve-save-request", &body);
     let (_, mut other) = served.socket("");

@@ -13,7 +13,7 @@ use std::time::Duration;
 
 #[test]
 fn a_file_is_opened_and_saved_and_no_edit_of_another_window_is_lost() {
-    let served = serve(project("save"), &["--port", "0"]);
+    let served = serve(project("save"), &client::OPEN);
     let opened = served.ask("open", &json!({ "path": "mill/machine.toml" })).json();
     let (text, version) = (opened["text"].as_str().expect("text"), &opened["version"]);
     let save = |text: &str, version: &Value| {
@@ -44,7 +44,7 @@ fn nothing_outside_the_folder_is_read_or_written() {
     std::os::unix::fs::symlink("/etc", folder.join("etc")).expect("a link");
     fs::create_dir(folder.join(".git")).expect("a folder");
     fs::write(folder.join(".git/config.toml"), "secret").expect("a hidden file");
-    let served = serve(folder, &["--port", "0"]);
+    let served = serve(folder, &client::OPEN);
     let secret_name = secret.file_name().expect("a name").to_string_lossy().into_owned();
     let absolute = secret.display().to_string();
     let names = [
@@ -88,7 +88,7 @@ fn nothing_outside_the_folder_is_read_or_written() {
 
 #[test]
 fn only_the_own_page_may_ask() {
-    let served = serve(project("origin"), &["--port", "0"]);
+    let served = serve(project("origin"), &client::OPEN);
     let host = &served.host;
     let json_type = "Content-Type: application/json\r\n";
     let own = format!("{json_type}Origin: http://{host}\r\n");
@@ -110,25 +110,57 @@ fn only_the_own_page_may_ask() {
 }
 
 #[test]
-fn beyond_loopback_the_token_is_needed() {
-    let served = serve(project("token"), &["--port", "0", "--listen", "0.0.0.0"]);
-    let (host, token) = served.host.split_once("/?token=").expect("an address with a token");
-    let named = format!("Content-Type: application/json\r\nHost: {host}\r\n");
-    assert_eq!(served.send("POST /api/project", &named, b"{}").status, 401);
-    let bearer = format!("{named}Authorization: Bearer {token}\r\n");
-    assert_eq!(served.send("POST /api/project", &bearer, b"{}").status, 200);
-    let entry = format!("Host: {host}\r\n");
-    assert_eq!(served.send("GET /", &entry, b"").status, 401);
-    let entered = served.send(&format!("GET /?token={token}"), &entry, b"");
-    assert_eq!(entered.status, 303);
-    assert!(entered.head.contains("HttpOnly") && entered.head.contains("SameSite=Strict"));
-    let cookie = format!("{named}Cookie: trueaxis_token={token}\r\n");
-    assert_eq!(served.send("POST /api/project", &cookie, b"{}").status, 200);
+fn the_token_is_needed_here_and_beyond() {
+    for arguments in [&["--port", "0"][..], &["--port", "0", "--listen", "0.0.0.0"]] {
+        let served = serve(project("token"), arguments);
+        let (host, token) = served.host.split_once("/?token=").expect("an address with a token");
+        // It can be typed: 0.0.0.0 is no address of a computer.
+        assert!(!host.starts_with("0.0.0.0"), "{host}");
+        let (_, port) = host.rsplit_once(':').expect("a port");
+        let named = format!("Content-Type: application/json\r\nHost: {host}\r\n");
+        assert_eq!(served.send("POST /api/project", &named, b"{}").status, 401);
+        let bearer = format!("{named}Authorization: Bearer {token}\r\n");
+        assert_eq!(served.send("POST /api/project", &bearer, b"{}").status, 200);
+        let entry = format!("Host: {host}\r\n");
+        assert_eq!(served.send("GET /", &entry, b"").status, 401);
+        let entered = served.send(&format!("GET /?token={token}"), &entry, b"");
+        assert_eq!(entered.status, 303);
+        assert!(entered.head.contains("HttpOnly") && entered.head.contains("SameSite=Strict"));
+        let cookie = format!("{named}Cookie: trueaxis_token_{port}={token}\r\n");
+        assert_eq!(served.send("POST /api/project", &cookie, b"{}").status, 200);
+    }
+}
+
+#[test]
+fn a_proxy_with_tls_is_accepted_where_it_is_named() {
+    let arguments = [&client::OPEN[..], &["--origin", "https://mill.example"]].concat();
+    let served = serve(project("proxy"), &arguments);
+    let json_type = "Content-Type: application/json\r\n";
+    for host in ["mill.example", &served.host] {
+        let asks = |origin: &str| {
+            let headers = format!("{json_type}Host: {host}\r\nOrigin: {origin}\r\n");
+            served.send("POST /api/project", &headers, b"{}").status
+        };
+        assert_eq!(asks("https://mill.example"), 200, "{host}");
+        assert_eq!(asks("https://other.example"), 403, "{host}");
+    }
+    assert_eq!(served.socket("Origin: https://mill.example\r\n").0, 101);
+}
+
+#[test]
+fn options_that_give_the_files_away_are_refused() {
+    for words in [["--listen", "0.0.0.0", "--no-token"], ["--origin", "mill.example", "--port=0"]] {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_trueaxis"));
+        let done = command.arg("serve").args(words).output().expect("the command");
+        let said = String::from_utf8_lossy(&done.stderr).into_owned();
+        assert_eq!(done.status.code(), Some(2), "{said}");
+        assert!(said.contains("cannot-serve") && said.contains("serve --help"), "{said}");
+    }
 }
 
 #[test]
 fn malformed_requests_are_answered_and_the_server_goes_on() {
-    let served = serve(project("malformed"), &["--port", "0"]);
+    let served = serve(project("malformed"), &client::OPEN);
     let host = &served.host;
     let json_type = "Content-Type: application/json\r\n";
     for body in ["", "{", "[]", "7", "{\"path\": 7}", "{\"nothing\": 1}", "\u{0}"] {
@@ -168,7 +200,7 @@ fn malformed_requests_are_answered_and_the_server_goes_on() {
 
 #[test]
 fn a_hundred_sockets_and_slow_ones_do_not_stop_it() {
-    let served = serve(project("many"), &["--port", "0"]);
+    let served = serve(project("many"), &client::OPEN);
     let sockets: Vec<_> = (0..100).map(|_| served.socket("")).collect();
     let accepted = sockets.iter().filter(|(status, _)| *status == 101).count();
     let refused = sockets.iter().filter(|(status, _)| *status == 503).count();
@@ -204,7 +236,7 @@ fn killed_while_saving_it_leaves_the_old_file_or_the_new_one() {
     let new = format!("{old}{}", "# a long comment\n".repeat(200_000));
     for delay_ms in [0, 1, 2, 4, 8, 16] {
         fs::write(&path, &old).expect("the old file");
-        let mut served = serve_kept(folder.clone(), &["--port", "0"]);
+        let mut served = serve_kept(folder.clone(), &client::OPEN);
         let opened = served.ask("open", &json!({ "path": "mill/machine.toml" })).json();
         let body =
             json!({ "path": "mill/machine.toml", "text": new, "version": opened["version"] });
@@ -228,7 +260,7 @@ fn killed_while_saving_it_leaves_the_old_file_or_the_new_one() {
 
 #[test]
 fn every_shipped_example_is_listed_and_is_there() {
-    let served = serve_kept(repository(), &["--port", "0"]);
+    let served = serve_kept(repository(), &client::OPEN);
     let listed = served.ask("project", &json!({})).json();
     let examples = listed["examples"].as_array().expect("examples").clone();
     assert!(examples.len() >= 15 && listed["diagnostics"] == json!([]), "{listed:#}");
@@ -243,7 +275,7 @@ fn every_shipped_example_is_listed_and_is_there() {
 
 #[test]
 fn answers_are_the_documents_of_the_command_line() {
-    let served = serve_kept(repository(), &["--port", "0"]);
+    let served = serve_kept(repository(), &client::OPEN);
     let study = "examples/03_predict/nas979-on-xkas2525.toml";
     let holes = "examples/03_predict/torque-arm.toml";
     let plan = "examples/04_plan/probe-ball.toml";
@@ -286,7 +318,7 @@ fn answers_are_the_documents_of_the_command_line() {
 
 #[test]
 fn dropped_readings_count_as_those_of_the_file() {
-    let served = serve_kept(repository(), &["--port", "0"]);
+    let served = serve_kept(repository(), &client::OPEN);
     let text = |path| fs::read_to_string(repository().join(path)).expect("readings");
     let campaign = "examples/05_identify/probe-ball.toml";
     let csv = text("examples/05_identify/probe-ball.csv");
@@ -317,7 +349,7 @@ fn dropped_readings_count_as_those_of_the_file() {
 
 #[test]
 fn reports_are_the_pages_of_the_command_line() {
-    let served = serve_kept(repository(), &["--port", "0"]);
+    let served = serve_kept(repository(), &client::OPEN);
     let body = json!({ "verb": "predict", "file": "examples/03_predict/cone-on-i5.toml" });
     let made = served.ask("report", &body).json();
     let url = made["url"].as_str().expect("an address");

@@ -1,5 +1,6 @@
 //! Tables of numbers whose headings carry the units.
 
+use crate::limits::{LONGEST_HEADING, MOST_BAD_ROWS, MOST_COLUMNS, MOST_ROWS, beginning};
 use crate::{Diagnostics, Place, Unit};
 
 /// One column of numbers with its heading.
@@ -35,14 +36,19 @@ pub struct CsvTable {
 impl CsvTable {
     /// Reads a text: `#` comments, one line of headings, rows of numbers.
     ///
-    /// Rows with problems are reported and omitted; a table with errors must not be used.
+    /// Rows with problems are reported and omitted, up to [`MOST_BAD_ROWS`] of them; a table with errors must not be used.
     pub fn parse(file: &str, text: &str, problems: &mut Diagnostics) -> Self {
         let mut table = Self { file: file.to_owned(), ..Self::default() };
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let rows = text.lines().enumerate().map(|(i, line)| (i + 1, line));
         let is_comment = |l: &str| l.trim_start().is_empty() || l.trim_start().starts_with('#');
+        let mut bad = 0;
         for (number, line) in rows.filter(|(_, l)| !is_comment(l)) {
             if table.columns.is_empty() {
+                let place = Place { file: file.to_owned(), line: number, column: 1 };
+                if has_headings_excess(line, &place, problems) {
+                    return table;
+                }
                 table.read_headings(number, line, problems);
                 if let Some(separator) = foreign_separator(line) {
                     let place = Place { file: file.to_owned(), line: number, column: 1 };
@@ -52,7 +58,12 @@ impl CsvTable {
                     return table;
                 }
             } else {
-                table.read_row(number, line, problems);
+                bad += usize::from(table.read_row(number, line, problems).is_none());
+                if table.rows() > MOST_ROWS || bad == MOST_BAD_ROWS {
+                    let place = Place { file: file.to_owned(), line: number, column: 1 };
+                    rows_excess(bad, place, problems);
+                    return table;
+                }
             }
         }
         if table.columns.is_empty() {
@@ -154,7 +165,7 @@ impl CsvTable {
         }
     }
 
-    fn read_row(&mut self, line: usize, text: &str, problems: &mut Diagnostics) {
+    fn read_row(&mut self, line: usize, text: &str, problems: &mut Diagnostics) -> Option<()> {
         let mut row = Vec::with_capacity(self.columns.len());
         for (column, field) in fields(text) {
             match field.parse::<f64>() {
@@ -163,7 +174,7 @@ impl CsvTable {
                     let place = Place { file: self.file.clone(), line, column };
                     let message = format!("`{field}` is not a finite number");
                     problems.error("not-a-number", place, message, "write a number such as -1.5");
-                    return;
+                    return None;
                 }
             }
         }
@@ -172,13 +183,45 @@ impl CsvTable {
             let message =
                 format!("fields in this row: {}, headings: {}", row.len(), self.columns.len());
             problems.error("ragged-row", place, message, "write one number under each heading");
-            return;
+            return None;
         }
         self.lines.push(line);
         for (column, value) in self.columns.iter_mut().zip(row) {
             column.values.push(value);
         }
+        Some(())
     }
+}
+
+/// Whether a row of headings is longer than that of any table; a problem says so.
+pub(crate) fn has_headings_excess(text: &str, place: &Place, problems: &mut Diagnostics) -> bool {
+    let columns = text.split(',').take(MOST_COLUMNS + 1).count();
+    let long = text.split(',').find(|name| name.trim().chars().nth(LONGEST_HEADING).is_some());
+    let message = match long {
+        Some(name) => {
+            let begins = beginning(name.trim());
+            format!("a heading has more than {LONGEST_HEADING} characters: `{begins}`")
+        }
+        None if columns > MOST_COLUMNS => {
+            format!("the table has more than {MOST_COLUMNS} columns")
+        }
+        None => return false,
+    };
+    let hint = "check whether this is the intended file; keep the columns that are needed, each with a short heading";
+    problems.error("over-limit", place.clone(), message, hint);
+    true
+}
+
+/// The problem of a table that is read no further: too many rows, or too many that cannot be read.
+pub(crate) fn rows_excess(bad: usize, place: Place, problems: &mut Diagnostics) {
+    if bad < MOST_BAD_ROWS {
+        let message = format!("the table has more than {MOST_ROWS} rows");
+        let hint = "divide it, or keep every tenth row";
+        return problems.error("over-limit", place, message, hint);
+    }
+    let message = format!("{bad} rows cannot be read; the remaining rows were not checked");
+    let hint = "check whether this is the intended file";
+    problems.error("too-many-bad-rows", place, message, hint);
 }
 
 /// The separator of the headings, if it is not a comma.
@@ -209,6 +252,27 @@ mod tests {
         CsvTable::parse("t.csv", "a,b\n1, x\n1\nnan,2\n3,4\n", &mut problems);
         let places: Vec<_> = problems.iter().map(|d| d.place.to_string()).collect();
         assert_eq!(places, ["t.csv:2:4", "t.csv:3:1", "t.csv:4:1"]);
+    }
+
+    #[test]
+    fn no_table_is_read_without_end() {
+        let first = |text: &str| {
+            let mut problems = Diagnostics::new();
+            let rows = CsvTable::parse("t.csv", text, &mut problems).rows();
+            let last = problems.iter().last().map(|d| (d.code, d.place.line));
+            (rows, problems.iter().count(), last)
+        };
+        let heading = |n: usize| "µ".repeat(n);
+        assert_eq!(first(&format!("{}\n1\n", heading(LONGEST_HEADING))), (1, 0, None));
+        let long = format!("# by hand\na,{}\n1,2\n", heading(LONGEST_HEADING + 1));
+        assert_eq!(first(&long), (0, 1, Some(("over-limit", 2))));
+        let columns = |n: usize| (0..n).map(|i| format!("c{i}")).collect::<Vec<_>>().join(",");
+        assert_eq!(first(&columns(MOST_COLUMNS)), (0, 0, None));
+        assert_eq!(first(&columns(MOST_COLUMNS + 1)), (0, 1, Some(("over-limit", 1))));
+        // A table of words: a hundred of them are enough.
+        let words = format!("a\n{}", "x\n".repeat(5_000));
+        let due = (0, MOST_BAD_ROWS + 1, Some(("too-many-bad-rows", MOST_BAD_ROWS + 1)));
+        assert_eq!(first(&words), due);
     }
 
     #[test]

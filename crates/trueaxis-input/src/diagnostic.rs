@@ -1,5 +1,7 @@
 //! Problems with code, place, message and hint.
 
+use crate::limits::cut;
+use std::borrow::Cow;
 use std::fmt;
 
 /// Whether the input can be used.
@@ -129,7 +131,7 @@ impl Diagnostics {
         message: String,
         hint: &str,
     ) {
-        self.0.push(Diagnostic { code, severity, place, message, hint: hint.to_owned() });
+        self.add(Diagnostic { code, severity, place, message, hint: hint.to_owned() });
     }
 
     /// Appends the problems of another stage.
@@ -143,8 +145,14 @@ impl Diagnostics {
         found
     }
 
-    /// Adds a diagnostic.
-    pub fn add(&mut self, diagnostic: Diagnostic) {
+    /// Adds a diagnostic; of a message or a hint longer than [`LONGEST_MESSAGE`](crate::limits::LONGEST_MESSAGE) the
+    /// beginning and the end.
+    pub fn add(&mut self, mut diagnostic: Diagnostic) {
+        for text in [&mut diagnostic.message, &mut diagnostic.hint] {
+            if let Cow::Owned(shorter) = cut(text) {
+                *text = shorter;
+            }
+        }
         self.0.push(diagnostic);
     }
 

@@ -3,7 +3,7 @@
 //! - [`parse_quantity`], [`parse_measured`]: `"12 urad"`, `"10 ± 1 um"`, in the inner unit;
 //! - [`SourceText`], [`Section`], [`Item`]: reading of TOML; [`CsvTable`] and [`sheet`]: tables;
 //! - [`Diagnostic`]: code, place, message and hint of one problem; [`Diagnostics`]: all of them;
-//! - [`Files`], [`Source`]: access to files.
+//! - [`Files`], [`Source`]: access to files; [`limits`]: how much of a text is read.
 //!
 //! ```
 //! use trueaxis_input::{Dimension, SourceText};
@@ -38,6 +38,7 @@ mod csv;
 mod diagnostic;
 mod files;
 pub mod foreign;
+pub mod limits;
 mod quantity;
 mod section;
 pub mod sheet;

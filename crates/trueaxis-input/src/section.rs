@@ -1,8 +1,9 @@
 //! Reading of TOML: every problem is collected with its place.
 
+use crate::limits::{MOST_SYNTAX_FAULTS, toml_excess};
 use crate::{
-    Diagnostics, Dimension, Files, MeasuredValue, Place, QuantityError, Unit, parse_measured,
-    parse_quantity,
+    Diagnostic, Diagnostics, Dimension, Files, MeasuredValue, Place, QuantityError, Severity, Unit,
+    parse_measured, parse_quantity,
 };
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
@@ -32,6 +33,8 @@ pub struct SourceText<'a> {
     /// The last place that was determined, as byte offset and column: most places are needed in
     /// the order of the text, and a long line is then counted only once.
     last: Cell<(usize, usize)>,
+    /// Why the text is not parsed, if it is beyond a limit.
+    excess: Option<Diagnostic>,
     problems: RefCell<Diagnostics>,
 }
 
@@ -42,11 +45,15 @@ impl<'a> SourceText<'a> {
     }
 
     /// A text, the name of its file, and where the files that it names are read from.
+    /// One beyond the limits of [`limits`](crate::limits) is not parsed: it reads as an empty one, and that is its
+    /// only problem.
     pub fn from(files: &Files, file: &'a str, text: &'a str) -> Self {
+        let excess = toml_excess(text).map(|(at, message)| over_limit(file, text, at, message));
+        let text = if excess.is_some() { "" } else { text };
         let line_starts =
             std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
         let (files, last) = (files.clone(), Cell::new((0, 1)));
-        Self { file, text, files, line_starts, last, problems: RefCell::default() }
+        Self { file, text, files, line_starts, last, excess, problems: RefCell::default() }
     }
 
     /// As [`Place::of`], in a time that does not grow with the size of the file.
@@ -69,7 +76,13 @@ impl<'a> SourceText<'a> {
     /// Parses the text and hands its root to `reader`; syntax errors are kept as problems.
     pub fn read<T>(&self, reader: impl FnOnce(&Section<'_>) -> T) -> T {
         let (root, errors) = DeTable::parse_recoverable(self.text);
-        for error in errors {
+        if errors.len() > MOST_SYNTAX_FAULTS {
+            let message =
+                format!("{} faults; the first {MOST_SYNTAX_FAULTS} are listed", errors.len());
+            let place = Place::whole(self.file);
+            self.problems.borrow_mut().note("too-many-problems", place, message, "");
+        }
+        for error in errors.into_iter().take(MOST_SYNTAX_FAULTS) {
             let at = error.span().unwrap_or(0..0);
             let message = error.message().to_owned();
             self.error(
@@ -87,12 +100,31 @@ impl<'a> SourceText<'a> {
 
     /// All problems found.
     pub fn finish(self) -> Diagnostics {
-        self.problems.into_inner()
+        match self.excess {
+            Some(excess) => {
+                let mut only = Diagnostics::new();
+                only.add(excess);
+                only
+            }
+            None => self.problems.into_inner(),
+        }
     }
 
     fn error(&self, code: &'static str, span: Range<usize>, message: String, hint: &str) {
         let place = self.place(span.start);
         self.problems.borrow_mut().error(code, place, message, hint);
+    }
+}
+
+/// The problem of a text that is not parsed.
+fn over_limit(file: &str, text: &str, at: usize, message: String) -> Diagnostic {
+    let hint = "check whether this is the intended file; rows of numbers belong into a CSV table that the file names";
+    Diagnostic {
+        code: "over-limit",
+        severity: Severity::Error,
+        place: Place::of(file, text, at),
+        message: format!("{message}: so large a TOML file is not read"),
+        hint: hint.to_owned(),
     }
 }
 
@@ -404,5 +436,34 @@ impl<'s> Section<'s> {
                 &format!("known entries: {known}"),
             );
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::limits::MOST_TOML_LINES;
+
+    /// Two megabytes of lines without a value took 1.6 GB when each was a problem of its own.
+    #[test]
+    fn a_text_beyond_a_limit_is_not_parsed() {
+        let text = "a\n".repeat(1 << 20);
+        let source = SourceText::new("m.toml", &text);
+        let name = source.read(|root| root.require("name", "a text").is_some());
+        let problems = source.finish();
+        let all: Vec<_> = problems.iter().map(|d| (d.code, d.place.line)).collect();
+        assert_eq!((name, all), (false, vec![("over-limit", MOST_TOML_LINES + 1)]));
+    }
+
+    #[test]
+    fn the_first_hundred_faults_of_the_syntax_are_listed() {
+        let text = "a\n".repeat(300);
+        let source = SourceText::new("m.toml", &text);
+        source.read(|_| ());
+        let problems = source.finish();
+        let faults = problems.iter().filter(|d| d.code == "toml-syntax").count();
+        assert_eq!(faults, MOST_SYNTAX_FAULTS);
+        let counted = problems.iter().find(|d| d.code == "too-many-problems").unwrap();
+        assert!(counted.message.starts_with("300 faults"), "{}", counted.message);
     }
 }

@@ -1,9 +1,8 @@
 //! Tables of measuring instruments: numbers, empty cells and words.
 
+use crate::csv::{has_headings_excess, rows_excess};
+use crate::limits::{MOST_BAD_ROWS, MOST_ROWS};
 use crate::{Diagnostics, Dimension, Place, Unit};
-
-/// Reading stops after this number of bad rows: it is probably the wrong file.
-const MAX_BAD_ROWS: usize = 100;
 
 /// A column of words names directions or diagonals, which are few; with more different words it is
 /// probably another column.
@@ -83,13 +82,10 @@ impl Sheet {
             }
             if sheet.columns.is_empty() {
                 sheet.read_headings(i + 1, line, &cells, problems)?;
-            } else if sheet.read_row(i + 1, line, problems).is_none() {
-                bad += 1;
-                if bad == MAX_BAD_ROWS {
-                    let message =
-                        format!("{bad} rows cannot be read; the remaining rows were not checked");
-                    let hint = "check whether this is the intended file";
-                    problems.error("too-many-bad-rows", sheet.place(i + 1, 1), message, hint);
+            } else {
+                bad += usize::from(sheet.read_row(i + 1, line, problems).is_none());
+                if sheet.rows() > MOST_ROWS || bad == MOST_BAD_ROWS {
+                    rows_excess(bad, sheet.place(i + 1, 1), problems);
                     return None;
                 }
             }
@@ -190,6 +186,9 @@ impl Sheet {
             let message = format!("the columns are separated by {name}");
             let hint = "separate them by commas, and write decimals with a point";
             problems.error("bad-separator", self.place(line, 1), message, hint);
+            return None;
+        }
+        if has_headings_excess(text, &self.place(line, 1), problems) {
             return None;
         }
         for (column, name) in fields(text) {
@@ -306,6 +305,16 @@ mod tests {
         assert!(sheet.columns[2].values[1].is_nan());
         assert_eq!(sheet.row_place(2).line, 5);
         assert!(!problems.has_errors());
+    }
+
+    #[test]
+    fn a_heading_without_end_is_refused_and_not_repeated() {
+        let mut problems = Diagnostics::new();
+        let text = format!("target_mm,{}\n1,2\n", "x".repeat(1 << 20));
+        assert!(Sheet::parse("t.csv", &text, cells, &mut problems).is_none());
+        let found = problems.iter().next().unwrap();
+        assert_eq!(found.code, "over-limit");
+        assert!(found.message.len() < 200, "{}", found.message);
     }
 
     #[test]

@@ -5,9 +5,11 @@ use super::issues::{IssueKind, Log};
 use super::setup::{Nearness, SetUp};
 use super::{Batch, Node, Observer, Stamp};
 use std::collections::BTreeMap;
+use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::Command;
+use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::errors::ErrorValues;
+use trueaxis_nc::moves::Origin;
 
 /// Watches the bodies of machine, tool, stock and fixtures, each path between two nodes as a whole.
 ///
@@ -23,9 +25,23 @@ pub struct Collisions {
     tool: u32,
     before: Option<(Command, f64)>,
     contacts: Vec<Contact>,
+    /// How much work the check was so far, and how much it may be.
+    work: u64,
+    most_work: u64,
+    /// The block at which the check ended because it was too much work.
+    ended_at: Option<Origin>,
     /// The issues that were found.
     pub log: Log,
 }
+
+/// Work of a check, in pairs of boxes (about 0.1 µs each): a basis, and what each move adds, and each mm or milliradian of
+/// an axis within its travel. A path that leads out of the travel is absurd, and adds nothing for its length.
+const WORK: u64 = 20_000_000;
+const WORK_OF_MOVE: u64 = 10_000;
+const WORK_OF_STEP: f64 = 2_000.0;
+
+/// An axis without a stated travel counts as no longer than this, mm or mrad.
+const LONGEST_STEP: f64 = 2_000.0;
 
 impl Collisions {
     /// Empty; `models` are those of the machine.
@@ -49,13 +65,58 @@ impl Collisions {
             tool: 0,
             before: None,
             contacts: Vec::new(),
+            work: 0,
+            most_work: WORK,
+            ended_at: None,
             log: Log::default(),
         })
+    }
+
+    /// The error that a part of the path was not checked, if that is so. The check is too much work where a body is
+    /// absurdly long: the time of a sweep grows with the way of its outermost point. `programs` are those of the
+    /// [`Run`](super::Run).
+    pub fn problems(&self, programs: &[String]) -> Diagnostics {
+        let mut problems = Diagnostics::new();
+        let Some(Origin { program, line }) = self.ended_at else { return problems };
+        let file = programs.get(program as usize).cloned().unwrap_or_default();
+        let reach_mm = self.tools.values().map(ToolShape::length_mm).fold(0.0, f64::max);
+        let message = format!(
+            "from this line on collisions were not checked: the bodies pass through too many places for it; the \
+             longest tool has {} mm",
+            reach_mm.round()
+        );
+        let hint = "check the units of tool lengths and offsets; a larger `resolution` in [collision] of the set-up makes \
+                    the check coarser, --no-collisions leaves it out";
+        let place = Place { file, line: line as usize, column: 1 };
+        problems.error("collisions-not-checked", place, message, hint);
+        problems
     }
 
     /// The pairs that are not watched because they overlap when all axes are at zero.
     pub fn left_out(&self) -> impl Iterator<Item = (&str, &str)> {
         self.scene.excluded().iter().map(|pair| (&*pair.first, &*pair.second))
+    }
+
+    /// Pairs of boxes that were compared so far, and how many it may be: a measure of the time that does not depend on
+    /// the computer.
+    pub fn work(&self) -> [u64; 2] {
+        [self.work, self.most_work]
+    }
+
+    fn work_of_way(&self, from: &Command, to: &Command) -> u64 {
+        let axes = self.machine.axes();
+        if axes
+            .iter()
+            .enumerate()
+            .any(|(i, a)| !a.travel.contains(from[i]) || !a.travel.contains(to[i]))
+        {
+            return 0;
+        }
+        let steps = axes.iter().enumerate().map(|(i, axis)| {
+            let way = (to[i] - from[i]).abs();
+            if axis.kind == AxisKind::Rotary { 1e3 * way } else { way }
+        });
+        (WORK_OF_STEP * steps.sum::<f64>().min(LONGEST_STEP)) as u64
     }
 
     fn change_tool(&mut self, number: u32) {
@@ -77,7 +138,14 @@ impl Collisions {
         };
         let poses = |command: &Command| machine.body_poses(command, &ErrorValues::default());
         self.contacts.clear();
-        self.scene.sweep(&poses, &sweep, &mut self.contacts);
+        self.most_work += WORK_OF_MOVE + self.work_of_way(&from, &node.command);
+        let before = self.scene.work();
+        self.scene.limit_work(before + self.most_work.saturating_sub(self.work));
+        let is_whole = self.scene.sweep(&poses, &sweep, &mut self.contacts);
+        self.work += self.scene.work() - before;
+        if !is_whole {
+            self.ended_at = Some(node.origin);
+        }
         for contact in &self.contacts {
             let time_s = from_s + contact.at * (stamp.time_s - from_s);
             let Some(kind) = kind(contact) else { continue };
@@ -114,7 +182,9 @@ impl Observer for Collisions {
             self.change_tool(batch.tool);
         }
         for (node, stamp) in batch.nodes.iter().zip(batch.stamps) {
-            self.see(node, stamp);
+            if self.ended_at.is_none() {
+                self.see(node, stamp);
+            }
         }
     }
 }

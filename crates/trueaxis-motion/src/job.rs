@@ -130,6 +130,9 @@ impl Job {
         }
         let mut run = simulate(&self.machine, &self.program, &self.setup, &self.options, &mut all);
         tool_check::tell(&self.setup, &summary, &mut run.problems);
+        if let Some(collisions) = &collisions {
+            run.problems.append(collisions.problems(&run.programs));
+        }
         let logs = [Some(watch.log), collisions.map(|c| c.log)];
         let issues = IssueList::of(logs.into_iter().flatten());
         Findings { run, summary, issues, drift }

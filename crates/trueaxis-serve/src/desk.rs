@@ -4,29 +4,59 @@ use crate::change::ChangeEntry;
 use crate::kept::Kept;
 use crate::project::Project;
 use crate::simulated::Simulated;
-use std::sync::atomic::AtomicBool;
+use crate::turn::Turns;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
-use tokio::sync::{Semaphore, broadcast};
+use tokio::sync::{Notify, broadcast};
 
 /// Short questions that are worked on at a time; a pose never waits for a simulation.
 const QUICK_AT_A_TIME: usize = 4;
 /// Long ones.
 const LONG_AT_A_TIME: usize = 2;
 
+/// Whether a request is still awaited; whoever gives it up says so here.
+#[derive(Clone, Default)]
+pub(crate) struct Halt {
+    /// True if it is not.
+    pub(crate) flag: Arc<AtomicBool>,
+    news: Arc<Notify>,
+}
+
+impl Halt {
+    /// The answer is not awaited any more.
+    pub(crate) fn call(&self) {
+        self.flag.store(true, Ordering::Relaxed);
+        self.news.notify_one();
+    }
+
+    pub(crate) fn is_called(&self) -> bool {
+        self.flag.load(Ordering::Relaxed)
+    }
+
+    /// Waits until it is given up.
+    pub(crate) async fn called(&self) {
+        self.news.notified().await;
+    }
+}
+
 /// One request at work: where its progress goes, and whether it is still awaited.
 #[derive(Clone)]
 pub(crate) struct Job {
-    pub(crate) stop: Arc<AtomicBool>,
+    pub(crate) halt: Halt,
     tell: Arc<dyn Fn(f64) + Send + Sync>,
 }
 
 impl Job {
     pub(crate) fn new(tell: impl Fn(f64) + Send + Sync + 'static) -> Self {
-        Self { stop: Arc::default(), tell: Arc::new(tell) }
+        Self { halt: Halt::default(), tell: Arc::new(tell) }
     }
 
-    /// The part that is done, 0 to 1.
+    /// The part that is done, 0 to 1. Work that is not awaited any more ends here: it unwinds, without the message of a
+    /// panic, to the thread that it was given (`turn.rs`); on the way files that are half written vanish.
     pub(crate) fn tell(&self, done: f64) {
+        if self.halt.is_called() {
+            std::panic::resume_unwind(Box::new("given up"));
+        }
         (self.tell)(done);
     }
 }
@@ -40,8 +70,8 @@ pub(crate) struct Desk {
     pub(crate) saving: Mutex<()>,
     /// Files that were saved, for the other windows.
     pub(crate) changed: broadcast::Sender<ChangeEntry>,
-    pub(crate) quick: Arc<Semaphore>,
-    pub(crate) long: Arc<Semaphore>,
+    pub(crate) quick: Turns,
+    pub(crate) long: Turns,
 }
 
 impl Desk {
@@ -52,8 +82,8 @@ impl Desk {
             reports: Kept::of(16),
             saving: Mutex::default(),
             changed: broadcast::channel(64).0,
-            quick: Arc::new(Semaphore::new(QUICK_AT_A_TIME)),
-            long: Arc::new(Semaphore::new(LONG_AT_A_TIME)),
+            quick: Turns::of(QUICK_AT_A_TIME),
+            long: Turns::of(LONG_AT_A_TIME),
         }
     }
 }

@@ -8,7 +8,7 @@
 //!
 //! All computing is done by the crates below; here requests become calls, and results become JSON
 //! (the documents of the command line) or binary pieces ([decision 13]). The server listens on loopback
-//! only, unless an address is given; then every request needs a token.
+//! only, unless an address is given; every request needs the token of the printed link.
 //!
 //! ```no_run
 //! let server = trueaxis_serve::Server::bind(&trueaxis_serve::Options {
@@ -25,6 +25,7 @@
 //!
 //! [decision 13]: https://github.com/
 
+mod addresses;
 mod answers;
 mod body;
 mod change;
@@ -33,33 +34,33 @@ mod frame;
 mod guard;
 mod kept;
 mod page;
+mod places;
 mod project;
 mod refusal;
 mod request;
+mod sending;
 mod simulated;
 mod socket;
 mod turn;
 mod web;
 
+pub use addresses::Link;
 use desk::Desk;
-use guard::Guard;
+use guard::{Guard, Origin};
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
+use places::Places;
 use project::Project;
 use std::io;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
-use tokio::sync::Semaphore;
 use trueaxis::NamedSchema;
 use trueaxis::report::named_schema;
 
 /// The port where one looks first.
 pub const USUAL_PORT: u16 = 7841;
-
-/// Connections at a time; further ones wait.
-const MOST_CONNECTIONS: usize = 256;
 
 /// How long the head of a request may take.
 const HEAD: Duration = Duration::from_secs(10);
@@ -84,22 +85,28 @@ pub fn schemas() -> Vec<NamedSchema> {
 pub struct Options {
     /// The project folder; nothing outside it is read or written.
     pub folder: PathBuf,
-    /// Where to listen; beyond loopback a token is made.
+    /// Where to listen.
     pub ip: IpAddr,
     /// At which port; without one the usual one, or any that is free.
     pub port: Option<u16>,
+    /// Whether every request needs a token; without one, every user of this computer may read and save. Beyond loopback
+    /// there must be one.
+    pub token: bool,
+    /// The origins of proxies by which the page is reached, such as `https://mill.example`.
+    pub origins: Vec<String>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { folder: ".".into(), ip: Ipv4Addr::LOCALHOST.into(), port: None }
+        let ip = Ipv4Addr::LOCALHOST.into();
+        Self { folder: ".".into(), ip, port: None, token: true, origins: Vec::new() }
     }
 }
 
 /// A server that is ready to run.
 pub struct Server {
     listener: TcpListener,
-    address: String,
+    links: Vec<Link>,
     router: axum::Router,
 }
 
@@ -108,26 +115,37 @@ impl Server {
     /// called by the same names here and in the page.
     ///
     /// # Errors
-    /// If the folder is none, or the port is taken.
+    /// If the folder is none, or the port is taken; `InvalidInput` for an origin that is none, and beyond loopback
+    /// without a token.
     pub fn bind(options: &Options) -> io::Result<Self> {
+        let invalid = |message: String| io::Error::new(io::ErrorKind::InvalidInput, message);
+        let loopback = options.ip.is_loopback();
+        if !loopback && !options.token {
+            let message = "--no-token is for this computer only: from others everyone could read and save the files";
+            return Err(invalid(message.to_owned()));
+        }
+        let origins: Result<Vec<Origin>, String> =
+            options.origins.iter().map(|origin| Origin::parse(origin)).collect();
+        let origins = origins.map_err(invalid)?;
         let project = Project::of(&options.folder)?;
         std::env::set_current_dir(project.root())?;
         let listener = listen(options)?;
         listener.set_nonblocking(true)?;
         let own = listener.local_addr()?;
-        let loopback = options.ip.is_loopback();
-        let token = if loopback { None } else { Some(token()?) };
-        let address = match &token {
-            Some(token) => format!("http://{own}/?token={token}"),
-            None => format!("http://{own}/"),
-        };
-        let guard = Guard { loopback, port: own.port(), token };
-        Ok(Self { listener, address, router: web::router(Desk::of(project), guard) })
+        let token = if options.token { Some(token()?) } else { None };
+        let links = addresses::links(own, token.as_deref(), &origins);
+        let guard = Guard { loopback, port: own.port(), token, origins };
+        Ok(Self { listener, links, router: web::router(Desk::of(project), guard) })
     }
 
     /// The address to open, with the token if one is needed.
     pub fn address(&self) -> &str {
-        &self.address
+        self.links.first().map_or("", |link| &link.url)
+    }
+
+    /// All addresses by which the page is reached, that of [`Server::address`] first.
+    pub fn links(&self) -> &[Link] {
+        &self.links
     }
 
     /// Serves until the program ends.
@@ -157,25 +175,27 @@ fn token() -> io::Result<String> {
 
 async fn accept(listener: TcpListener, router: axum::Router) -> io::Result<()> {
     let listener = tokio::net::TcpListener::from_std(listener)?;
-    let places = Arc::new(Semaphore::new(MOST_CONNECTIONS));
+    let places = Places::default();
     loop {
-        let Ok(place) = places.clone().acquire_owned().await else { return Ok(()) };
         let Ok((stream, _)) = listener.accept().await else {
             // Out of file handles, say: others must go first.
             tokio::time::sleep(Duration::from_millis(50)).await;
             continue;
         };
-        let service = TowerToHyperService::new(router.clone());
+        let place = Arc::new(places.enter());
+        let service = TowerToHyperService::new(web::at_place(&router, place.clone()));
         tokio::spawn(async move {
-            let _place = place;
             let _ = stream.set_nodelay(true);
             let mut stream = tokio_io_timeout::TimeoutStream::new(stream);
             stream.set_write_timeout(Some(UNREAD));
             let mut http = hyper::server::conn::http1::Builder::new();
             http.timer(TokioTimer::new()).header_read_timeout(HEAD);
             let connection = http.serve_connection(TokioIo::new(Box::pin(stream)), service);
-            // A connection that breaks off is no fault of the server.
-            let _ = connection.with_upgrades().await;
+            tokio::select! {
+                // A connection that breaks off is no fault of the server.
+                _ = connection.with_upgrades() => {}
+                () = place.ended() => {}
+            }
         });
     }
 }

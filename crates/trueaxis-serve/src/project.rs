@@ -6,7 +6,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
+use std::io::Read;
 use std::path::{Component, Path, PathBuf};
+use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Item, Section, SourceText};
 
 /// A folder with more files than this is no project; the list ends there and says so.
@@ -14,6 +16,9 @@ const MOST_FILES: usize = 5000;
 
 /// Folders in folders that are looked into.
 const DEPTH: usize = 8;
+
+/// Bytes of a TOML file that tell its kind.
+const LOOKED_AT: u64 = 1 << 20;
 
 /// Where the examples are listed.
 const INDEX: &str = "examples/index.toml";
@@ -160,6 +165,8 @@ impl Project {
             let path = entry.path();
             if kind.is_dir() && depth > 0 {
                 self.collect(&path, depth - 1, files);
+            } else if !kind.is_file() {
+                // A pipe would be waited for.
             } else if let (Some(kind), Ok(shown)) = (kind_of(&path), path.strip_prefix(&self.root))
             {
                 let path = shown.to_string_lossy().replace('\\', "/");
@@ -171,7 +178,9 @@ impl Project {
 
     /// The examples of the folder, if it has any.
     pub(crate) fn examples(&self) -> (Vec<ExampleEntry>, Diagnostics) {
-        let Ok(text) = fs::read_to_string(self.root.join(INDEX)) else {
+        let index = self.root.join(INDEX);
+        let text = disk().is_file(&index).then(|| disk().read_text(&index).ok()).flatten();
+        let Some(text) = text else {
             return (Vec::new(), Diagnostics::new());
         };
         let source = SourceText::new(INDEX, &text);
@@ -205,9 +214,16 @@ fn kind_of(path: &Path) -> Option<FileKind> {
         "csv" | "qif" => FileKind::Readings,
         "mpf" | "spf" | "nc" | "ngc" | "h" | "tap" | "eia" | "gcode" => FileKind::Program,
         "cls" | "apt" | "cl" => FileKind::Cl,
-        "toml" => kind_of_toml(&path.to_string_lossy(), &fs::read_to_string(path).ok()?),
+        "toml" => kind_of_toml(&path.to_string_lossy(), &beginning_of(path)?),
         _ => return None,
     })
+}
+
+/// As much of a file as tells its kind.
+fn beginning_of(path: &Path) -> Option<String> {
+    let mut bytes = Vec::new();
+    fs::File::open(path).ok()?.take(LOOKED_AT).read_to_end(&mut bytes).ok()?;
+    Some(String::from_utf8_lossy(&bytes).into_owned())
 }
 
 fn kind_of_toml(name: &str, text: &str) -> FileKind {

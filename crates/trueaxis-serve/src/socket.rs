@@ -10,7 +10,7 @@
 
 use crate::body;
 use crate::change::ChangeEntry;
-use crate::desk::{Desk, Job};
+use crate::desk::{Desk, Halt, Job};
 use crate::refusal::{Refusal, RefusalEntry};
 use crate::request::Message as Answer;
 use crate::turn::answer;
@@ -20,7 +20,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::HashMap;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tokio::sync::{broadcast, mpsc};
 use trueaxis::report::document;
@@ -83,12 +82,12 @@ const MOST_OPEN: usize = 32;
 /// Answers that wait for a window that reads slowly; work on further ones waits for it.
 const MOST_UNREAD: usize = 32;
 
-/// The questions that are being worked on, with the flag that stops each.
+/// The questions that are being worked on, and where each is given up.
 #[derive(Default)]
-struct Open(Mutex<HashMap<u64, Arc<AtomicBool>>>);
+struct Open(Mutex<HashMap<u64, Halt>>);
 
 impl Open {
-    fn lock(&self) -> MutexGuard<'_, HashMap<u64, Arc<AtomicBool>>> {
+    fn lock(&self) -> MutexGuard<'_, HashMap<u64, Halt>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -135,7 +134,7 @@ pub(crate) async fn serve(socket: WebSocket, desk: Arc<Desk>) {
         }
     }
     // What is still open is not awaited any more.
-    open.lock().values().for_each(|stop| stop.store(true, Ordering::Relaxed));
+    open.lock().values().for_each(Halt::call);
     drop(out);
     writer.abort();
 }
@@ -152,7 +151,7 @@ async fn take(words: &str, desk: &Arc<Desk>, out: &mpsc::Sender<Message>, open: 
     let (id, name, body) = match body::read::<SocketRequest>(message) {
         Ok(SocketRequest { id, stop: Some(true), .. }) => {
             if let Some(stop) = open.lock().get(&id) {
-                stop.store(true, Ordering::Relaxed);
+                stop.call();
             }
             return;
         }
@@ -172,7 +171,7 @@ async fn take(words: &str, desk: &Arc<Desk>, out: &mpsc::Sender<Message>, open: 
     let job = Job::new(move |progress| {
         let _ = news.try_send(SocketAnswer::Progress { id, progress }.message());
     });
-    open.lock().insert(id, job.stop.clone());
+    open.lock().insert(id, job.halt.clone());
     let body = body.unwrap_or_else(|| Value::Object(serde_json::Map::new()));
     let (desk, out, open) = (desk.clone(), out.clone(), open.clone());
     tokio::spawn(async move {

@@ -2,29 +2,23 @@
 
 use crate::desk::{Desk, Job};
 use crate::guard::{Guard, add_headers};
+use crate::places::{Place, Stage};
 use crate::refusal::{Refusal, RefusedAnswer};
 use crate::request::Message;
+use crate::sending::{MOST_BYTES, received};
 use crate::turn::answer;
 use crate::{page, socket};
-use axum::Router;
-use axum::body::{Body, Bytes, HttpBody, to_bytes};
+use axum::body::{Body, Bytes};
 use axum::extract::{Path, Request, State, WebSocketUpgrade};
 use axum::http::{StatusCode, header};
 use axum::middleware::{Next, from_fn_with_state};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
+use axum::{Extension, Router};
 use serde_json::Value;
 use std::sync::Arc;
-use std::time::Duration;
 use tokio::sync::Semaphore;
-use tokio::time::timeout;
 use trueaxis::report::document;
-
-/// No question is longer: an NC program of a million lines fits.
-const MOST_BYTES: usize = 64 << 20;
-
-/// How long sending it may take.
-const SENDING: Duration = Duration::from_secs(60);
 
 /// Windows at a time.
 const MOST_SOCKETS: usize = 64;
@@ -36,7 +30,7 @@ pub(crate) struct Shared {
     sockets: Arc<Semaphore>,
 }
 
-/// The whole server as one function from requests to answers.
+/// The whole server as one function from requests to answers; each connection adds its [`Place`] ([`at_place`]).
 pub(crate) fn router(desk: Desk, guard: Guard) -> Router {
     let sockets = Arc::new(Semaphore::new(MOST_SOCKETS));
     let shared = Shared { desk: Arc::new(desk), guard: Arc::new(guard), sockets };
@@ -49,10 +43,22 @@ pub(crate) fn router(desk: Desk, guard: Guard) -> Router {
         .with_state(shared)
 }
 
+/// The server for one connection.
+pub(crate) fn at_place(router: &Router, place: Arc<Place>) -> Router {
+    router.clone().layer(Extension(place))
+}
+
 /// No one who may not ask gets past this; every answer gets its headers here.
-async fn guarded(State(shared): State<Shared>, request: Request, next: Next) -> Response {
-    let report = request.uri().path().starts_with("/report/");
-    let mut response = match shared.guard.cookie(request.uri()) {
+async fn guarded(
+    State(shared): State<Shared>,
+    Extension(place): Extension<Arc<Place>>,
+    request: Request,
+    next: Next,
+) -> Response {
+    let path = request.uri().path();
+    let (report, is_api) = (path.starts_with("/report/"), path.starts_with("/api/"));
+    let guard = &shared.guard;
+    let mut response = match guard.cookie(request.uri(), request.headers()) {
         Some(cookie) => {
             let to = [(header::LOCATION, "/".parse()), (header::SET_COOKIE, Ok(cookie))];
             let mut response = StatusCode::SEE_OTHER.into_response();
@@ -61,13 +67,31 @@ async fn guarded(State(shared): State<Shared>, request: Request, next: Next) -> 
             }
             response
         }
-        None => match shared.guard.check(request.method(), request.headers()) {
-            Ok(()) => next.run(request).await,
+        None => match guard.check(request.method(), request.headers()) {
+            Ok(()) if place.go_on(Stage::Working) => {
+                let response = next.run(request).await;
+                // Where it has had to go, no further request comes.
+                let _ = place.go_on(Stage::Idle);
+                response
+            }
+            Ok(()) => refused(&busy("too many requests are being answered")),
+            Err(refusal) if refusal.status == 401 && !is_api => without_token(),
             Err(refusal) => refused(&refusal),
         },
     };
     add_headers(response.headers_mut(), report);
     response
+}
+
+/// For a person who opens the page without its link.
+fn without_token() -> Response {
+    let words = "This page needs its token.\n\nOpen the whole link that `trueaxis serve` printed when it started; \
+                 it ends in /?token=…\nAfter a restart the link is another one.\n";
+    (StatusCode::UNAUTHORIZED, words).into_response()
+}
+
+fn busy(message: &str) -> Refusal {
+    Refusal::new(503, "busy", message, "ask again later")
 }
 
 async fn file(request: Request) -> Response {
@@ -84,23 +108,20 @@ async fn file(request: Request) -> Response {
     }
 }
 
-async fn ask(State(shared): State<Shared>, Path(name): Path<String>, body: Body) -> Response {
-    let too_long = || {
-        let message = format!("the body is longer than {} MB or broke off", MOST_BYTES >> 20);
-        refused(&Refusal::new(413, "too-long", message, "send less at a time"))
+async fn ask(
+    State(shared): State<Shared>,
+    Extension(place): Extension<Arc<Place>>,
+    Path(name): Path<String>,
+    body: Body,
+) -> Response {
+    let _ = place.go_on(Stage::Sending);
+    let body = match received(body).await {
+        Ok(body) => body,
+        Err(refusal) => return refused(&refusal),
     };
-    // What is announced too long is not waited for.
-    if body.size_hint().lower() > MOST_BYTES as u64 {
-        return too_long();
+    if !place.go_on(Stage::Working) {
+        return refused(&busy("too many requests are being answered"));
     }
-    let body = match timeout(SENDING, to_bytes(body, MOST_BYTES)).await {
-        Ok(Ok(body)) => body,
-        Ok(Err(_)) => return too_long(),
-        Err(_) => {
-            let message = format!("the body did not come within {} s", SENDING.as_secs());
-            return refused(&Refusal::new(408, "too-slow", message, "send it faster"));
-        }
-    };
     let body: Value = match serde_json::from_slice(&body) {
         Ok(value) => value,
         Err(e) => return refused(&Refusal::bad(format!("the body is no JSON: {e}"), "such as {}")),

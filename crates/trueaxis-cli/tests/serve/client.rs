@@ -8,6 +8,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
+/// At any free port, without a token.
+pub const OPEN: [&str; 3] = ["--port", "0", "--no-token"];
+
 /// A running `trueaxis serve`; it ends with the test.
 pub struct Served {
     pub child: Child,
@@ -95,7 +98,7 @@ impl Answer {
 impl Served {
     pub fn connect(&self) -> TcpStream {
         let address = self.host.split('/').next().expect("host and port");
-        let stream = TcpStream::connect(address.replace("0.0.0.0", "127.0.0.1")).expect("a server");
+        let stream = TcpStream::connect(address).expect("a server");
         stream.set_read_timeout(Some(Duration::from_secs(30))).expect("a time limit");
         stream
     }

@@ -77,6 +77,11 @@ impl ToolShape {
         Some(Self { tip_mm, segments, corner_radius_mm: tool.corner_radius_mm.unwrap_or(0.0) })
     }
 
+    /// From the tip to the end of the last segment, mm.
+    pub fn length_mm(&self) -> f64 {
+        self.segments.iter().map(|s| s.length_mm).sum()
+    }
+
     fn models(&self, node: usize) -> Vec<BodyModel> {
         let mut height = 0.0;
         let mut holder = Vec::new();
@@ -194,7 +199,14 @@ pub struct Scene {
     pub(super) workpiece_side: usize,
     scratch: Scratch,
     questions: usize,
+    /// Pairs of boxes that were compared, and poses that were asked for, each as [`WORK_OF_POSES`] of them.
+    pub(super) work: u64,
+    /// A sweep that has come so far ends.
+    pub(super) most_work: u64,
 }
+
+/// The poses of all bodies at a command cost as much as so many pairs of boxes.
+pub(super) const WORK_OF_POSES: u64 = 20;
 
 impl Scene {
     /// A scene of a machine, a tool, and what is mounted on the workpiece node.
@@ -228,6 +240,8 @@ impl Scene {
             workpiece_side: machine.workpiece_side(),
             scratch: Scratch::default(),
             questions: 0,
+            work: 0,
+            most_work: u64::MAX,
         };
         scene.make_pairs();
         scene.exclude_overlaps(machine);
@@ -247,6 +261,17 @@ impl Scene {
     /// How many times triangles had to be checked so far.
     pub fn questions(&self) -> usize {
         self.questions
+    }
+
+    /// Pairs of boxes that were compared so far, with what the poses between them cost: a measure of the time that does
+    /// not depend on the computer.
+    pub fn work(&self) -> u64 {
+        self.work
+    }
+
+    /// A sweep ends when [`Scene::work`] has reached this much; without it only the path limits it.
+    pub fn limit_work(&mut self, most: u64) {
+        self.most_work = most;
     }
 
     /// The pairs that are not watched because they overlap when all axes are at zero.
@@ -402,6 +427,7 @@ impl Scene {
         }
         self.questions += 1;
         let mut found = first.nearest(second, placed, below, pair.seed, &mut self.scratch);
+        self.work += self.scratch.visits as u64;
         let easy = self.scratch.visits < 256;
         pair.margin_mm = (pair.margin_mm * if easy { 2.0 } else { 0.5 }).clamp(1.0, 2000.0);
         pair.seed = found.map(|n| n.triangles).or(pair.seed);

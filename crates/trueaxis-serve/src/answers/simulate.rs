@@ -85,7 +85,7 @@ impl SimulateRequest {
             setup: self.setup.map(|name| desk.project.path(&name)).transpose()?,
             control: self.control,
             keep_going: self.keep_going.unwrap_or(false),
-            stop: Stop::from(job.stop.clone()),
+            stop: Stop::from(job.halt.flag.clone()),
             ..ProgramChoice::default()
         };
         let machine = MachineChoice { file, ..MachineChoice::default() };

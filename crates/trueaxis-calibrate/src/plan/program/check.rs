@@ -205,6 +205,9 @@ fn watch<'s>(
         observers.push(collisions);
     }
     let run = simulate(machine, program, setup, &Options::default(), &mut observers);
+    if let Some(collisions) = &collisions {
+        found.append(collisions.problems(&run.programs));
+    }
     let logs = [Some(watch.log), collisions.map(|c| c.log)];
     let issues = IssueList::of(logs.into_iter().flatten());
     let told = |critical: bool| {
