@@ -29,6 +29,10 @@ $trueaxis plan examples/05_identify/cone-path.toml
 # Centres of one ball on a head-head router, errors of X, Y, Z not listed: the rest follows them, exit status 1.
 $trueaxis identify examples/05_identify/head-head.toml --report "${TMPDIR:-/tmp}/head-head.html" || test $? -eq 1
 $trueaxis identify examples/05_identify/head-head.toml --format json || test $? -eq 1
+# All errors together as a machine file: what one ball cannot separate compensates all the same, with U of each pose.
+$trueaxis identify examples/05_identify/head-head.toml --predictor "$out/predicted.toml" || test $? -eq 1
+$trueaxis check "$out/predicted.toml"
+$trueaxis pose "$out/predicted.toml" --at "X=850 Y=450 Z=150 B=20 C=45"
 # Ball-bar, R-test and laser at once.
 $trueaxis identify examples/05_identify/mixed-instruments.toml
 $trueaxis identify examples/05_identify/mixed-instruments.toml --check-conventions

@@ -22,6 +22,7 @@ use trueaxis::questions::IdentifyExpansion;
 Examples:
   trueaxis identify examples/05_identify/probe-ball.toml --report found.html
   trueaxis identify examples/05_identify/mixed-instruments.toml -o identified.toml --format json
+  trueaxis identify examples/05_identify/head-head.toml --predictor predicted.toml
   trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
   trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml
 

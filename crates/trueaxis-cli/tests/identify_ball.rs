@@ -13,7 +13,7 @@ const CONE: &str = "examples/05_identify/cone-path.toml";
 fn found(report: &str, name: &str) -> Option<[f64; 2]> {
     let line = report.lines().find(|l| l.split_whitespace().next() == Some(name)).expect(name);
     let numbers: Vec<f64> = line.split_whitespace().filter_map(|w| w.parse().ok()).collect();
-    assert!(line.ends_with("not observable") || numbers.len() == 3, "{line}");
+    assert!(line.ends_with("not observable") || numbers.len() >= 4, "{line}");
     Some([*numbers.first()?, *numbers.get(1)?])
 }
 
@@ -157,4 +157,114 @@ fn the_correction_of_the_tool_gives_the_same_errors() {
         // Taken for the other, the errors have the other sign.
         assert!(of(&wrong.out) * of(&seen.out) < 0.0, "{name}");
     }
+}
+
+/// The tip deviation (µm) at a place, by a machine file.
+fn tip_um(machine: &str, place: &str) -> Vec<f64> {
+    let ran = trueaxis(&["pose", machine, "--at", place, "--format", "json"]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let document: serde_json::Value = serde_json::from_str(&ran.out).expect("JSON");
+    let tip = document["deviation"]["tip_um"].as_array().expect("a list");
+    tip.iter().map(|v| v.as_f64().expect("a number")).collect()
+}
+
+/// Writes the predictor of a campaign into its folder.
+fn predictor(folder: &Folder, campaign: &str, name: &str) -> String {
+    let path = folder.path(name);
+    let ran = trueaxis(&["identify", campaign, "--predictor", &path]);
+    assert_eq!(ran.status, 1, "{}", ran.err);
+    path
+}
+
+#[test]
+fn a_prediction_is_a_machine_file_whose_uncertainty_knows_what_is_separable() {
+    let folder = Folder::new("predictor");
+    let campaign = with_readings(&folder, |_, line| line.to_owned());
+    let file = predictor(&folder, &campaign, "predicted.toml");
+    let text = std::fs::read_to_string(&file).expect("a machine file");
+    assert!(
+        text.contains("EX0B = ") && text.contains("single values are not identified"),
+        "{text}"
+    );
+    assert!(text.contains("# scored over X ") && text.contains("without compensation: "), "{text}");
+    let place = "X=850 Y=450 Z=150 B=20 C=45";
+    let first = tip_um(&file, place);
+    // Another order of the rows, and another unit.
+    let turned = Folder::new("predictor-turned");
+    let campaign = with_readings(&turned, |i, line| {
+        let cells: Vec<&str> = line.split(',').collect();
+        let um = |v: &&str| format!("{:.1}", v.parse::<f64>().expect("a number") * 1e3);
+        match cells[..] {
+            _ if line.starts_with('#') => line.to_owned(),
+            ["B", ..] => "B,C,x_um,y_um,z_um".to_owned(),
+            [b, c, ref xyz @ ..] if i > 0 => {
+                let xyz: Vec<String> = xyz.iter().map(um).collect();
+                format!("{b},{c},{}", xyz.join(","))
+            }
+            _ => line.to_owned(),
+        }
+    });
+    let other = tip_um(&predictor(&turned, &campaign, "predicted.toml"), place);
+    for (a, b) in first.iter().zip(&other) {
+        assert!((a - b).abs() < 1e-3, "{first:?} {other:?}");
+    }
+}
+
+#[test]
+fn a_prediction_that_makes_the_machine_worse_is_refused() {
+    let folder = Folder::new("predictor-worse");
+    // Nothing but noise.
+    let mut random = 12_345_u64;
+    let mut noise = || {
+        random =
+            random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((random >> 33) as f64 / f64::from(1u32 << 31) - 0.5) * 0.04
+    };
+    let values: Vec<[f64; 3]> =
+        (0..200).map(|_| [800.0 + noise(), 500.0 + noise(), -200.0 + noise()]).collect();
+    let campaign = with_readings(&folder, |i, line| match line.starts_with(['#', 'B']) {
+        true => line.to_owned(),
+        false => {
+            let head: Vec<&str> = line.split(',').take(2).collect();
+            let [x, y, z] = values[i];
+            format!("{},{x:.4},{y:.4},{z:.4}", head.join(","))
+        }
+    });
+    let file = folder.path("predicted.toml");
+    let ran = trueaxis(&["identify", &campaign, "--predictor", &file]);
+    assert_eq!(ran.status, 2, "{}", ran.err);
+    assert!(ran.err.contains("prediction-worse"), "{}", ran.err);
+    assert!(!std::path::Path::new(&file).exists());
+}
+
+#[test]
+fn a_covariance_that_does_not_belong_to_the_machine_file_is_refused() {
+    let folder = Folder::new("predictor-other");
+    let campaign = with_readings(&folder, |_, line| line.to_owned());
+    let file = predictor(&folder, &campaign, "predicted.toml");
+    let text = std::fs::read_to_string(&file).expect("a machine file");
+    let covariance = folder.path("predicted-covariance.toml");
+    let known = std::fs::read_to_string(&covariance).expect("a covariance");
+    let refused = |text: &str, known: Option<&str>, code: &str, place: &str| {
+        let machine = folder.file("changed.toml", text.to_owned());
+        match known {
+            Some(known) => std::fs::write(&covariance, known).expect("a file"),
+            None => std::fs::remove_file(&covariance).expect("a file"),
+        }
+        let ran = trueaxis(&["check", &machine]);
+        assert_eq!(ran.status, 2, "{code}: {}", ran.err);
+        assert!(ran.err.contains(code) && ran.err.contains(place), "{code}: {}", ran.err);
+    };
+    let changed: String = text
+        .lines()
+        .map(|l| if l.starts_with("EC0Y = ") { "EC0Y = \"1 ± 1 urad\"" } else { l })
+        .fold(String::new(), |all, l| all + l + "\n");
+    refused(&changed, Some(&known), "other-covariance", "changed.toml:");
+    let line = known.lines().find(|l| l.starts_with("u = ")).expect("a row");
+    let other = known.replacen(line, "u = 1.0", 1);
+    refused(&text, Some(&other), "bad-covariance", "predicted-covariance.toml:");
+    let nowhere = known.replacen("error = \"EX0B\"", "error = \"EX0A\"", 1);
+    refused(&text, Some(&nowhere), "unknown-body", "predicted-covariance.toml:");
+    refused(&text, Some("[[known]]\n"), "missing-key", "predicted-covariance.toml:");
+    refused(&text, None, "missing-table", "changed.toml:");
 }

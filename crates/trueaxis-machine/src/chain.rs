@@ -17,9 +17,10 @@ pub(crate) use rule::Step;
 use crate::axis::{Approach, Axis, AxisKind, Command};
 use crate::errors::{
     BodyErrors, BodyName, Component, Curve, ErrorIndex, ErrorKind, ErrorName, ErrorValues,
-    OutsideTable, Rotation, SixErrors, StatedError, Uncertainties,
+    JointErrors, OutsideTable, Rotation, SixErrors, StatedError, Uncertainties,
 };
 use crate::heat::{HeatModel, ThermalTerm, WorkpieceGrowth};
+use std::sync::Arc;
 use trueaxis_geometry::frame::{Bed, Body, Pose, Tool, Workpiece, rotation};
 use trueaxis_geometry::{Mat3, Vec3};
 
@@ -123,6 +124,8 @@ pub struct Machine {
     /// Errors that the control compensates.
     pub(crate) active: Vec<ErrorName>,
     pub(crate) equipment: crate::equipment::Equipment,
+    /// Errors with a covariance; their own uncertainties do not count.
+    pub(crate) joint: Option<Arc<JointErrors>>,
 }
 
 /// α_w among the uncertain quantities.
@@ -250,16 +253,33 @@ impl Machine {
         Some(self)
     }
 
-    /// The same machine with another statement of one error; `None`: as if it were not known.
+    /// The same machine with another statement of one error; `None`: as if it were not known. With another
+    /// uncertainty, the error has no part in a covariance any more.
     pub fn with_error(mut self, index: ErrorIndex, stated: Option<StatedError>) -> Self {
         if let Some(body) = self.bodies.get_mut(index.body) {
             let slots = match index.kind {
                 ErrorKind::Location => &mut body.location,
                 ErrorKind::Motion => &mut body.motion,
             };
-            slots[index.component as usize] = stated;
+            let u = |stated: &Option<StatedError>| stated.as_ref().map(|s| s.u.clone());
+            let slot = &mut slots[index.component as usize];
+            if u(slot) != u(&stated) && self.joint.as_ref().is_some_and(|joint| joint.has(index)) {
+                self.joint = self.joint.and_then(|joint| joint.without(index)).map(Arc::new);
+            }
+            *slot = stated;
         }
         self
+    }
+
+    /// The same machine with errors that are known better together than each alone.
+    pub fn with_joint(mut self, joint: JointErrors) -> Self {
+        self.joint = Some(Arc::new(joint));
+        self
+    }
+
+    /// Errors that are known better together than each alone: their own uncertainties do not count.
+    pub fn joint(&self) -> Option<&JointErrors> {
+        self.joint.as_deref()
     }
 
     /// Where an error of that name stands; `None` if the chain has no such body.
@@ -350,10 +370,12 @@ impl Machine {
     }
 
     /// Every independent quantity that has, or could have, an uncertainty: the stated errors in
-    /// chain order, then the coefficients of the thermal parts, then the expansion of the workpiece.
+    /// chain order, then the combinations of those with a covariance, then the coefficients of the thermal
+    /// parts, then the expansion of the workpiece.
     pub fn uncertain_quantities(&self) -> Vec<String> {
         let stated = self.stated_errors().into_iter().map(|(_, name)| name.to_string());
         let mut all: Vec<String> = stated.collect();
+        all.extend(self.joint.iter().flat_map(|joint| joint.names().iter().cloned()));
         for u in self.bodies.iter().flat_map(|b| &b.thermal).flat_map(|t| &t.u) {
             if !all.contains(&u.of) {
                 all.push(u.of.clone());
@@ -386,9 +408,16 @@ impl Machine {
     pub fn uncertainties_at(&self, command: &Command, quantities: &[String]) -> Uncertainties {
         let mut found = Uncertainties::default();
         let at = |body: usize| self.bodies[body].axis.map_or(0.0, |i| command[i]);
-        for (quantity, (index, _)) in self.stated_errors().into_iter().enumerate() {
+        let stated_errors = self.stated_errors();
+        let alone = |index: &ErrorIndex| self.joint.as_ref().is_none_or(|joint| !joint.has(*index));
+        for (quantity, (index, _)) in
+            stated_errors.iter().enumerate().filter(|(_, (i, _))| alone(i))
+        {
             let stated = self.bodies[index.body].stated(index.kind, index.component);
-            found.add(quantity, index, stated.map_or(0.0, |e| e.u_at(at(index.body))));
+            found.add(quantity, *index, stated.map_or(0.0, |e| e.u_at(at(index.body))));
+        }
+        if let Some(joint) = &self.joint {
+            joint.add_to(&mut found, stated_errors.len(), |index| at(index.body));
         }
         for (body, b) in self.bodies.iter().enumerate() {
             for term in &b.thermal {

@@ -1,6 +1,7 @@
 //! The errors of a machine: their names, their curves, their values at a position.
 
 mod curve;
+mod joint;
 mod name;
 mod slope;
 mod spline;
@@ -9,6 +10,7 @@ mod uncertain;
 mod values;
 
 pub use curve::{Curve, Extrapolation, Harmonic, OutsideTable};
+pub use joint::{JointErrors, JointFunction};
 pub use name::{BodyName, Component, ErrorKind, ErrorName};
 pub use spline::{Interpolation, Spline, SplineError};
 pub use stated::{Measurement, StatedError, Uncertainty};

@@ -5,6 +5,7 @@ mod equipment_text;
 mod error_text;
 mod geometry_check;
 mod heat_text;
+mod joint_text;
 mod model_text;
 mod place_text;
 mod table_text;
@@ -164,6 +165,12 @@ fn read_machine(root: &Section<'_>, tables: &dyn Tables) -> Option<Machine> {
         growth: None,
         active,
         equipment: equipment_text::read_equipment(root),
+        joint: None,
+    };
+    let joint = root.section("uncertainty", |s| joint_text::read_joint(s, &machine, tables));
+    let machine = match joint.flatten() {
+        Some(joint) => machine.with_joint(joint),
+        None => machine,
     };
     if let Some(item) = head.chain_item {
         geometry_check::warn_about_directions(&machine, &item);

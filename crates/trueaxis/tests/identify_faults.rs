@@ -333,11 +333,9 @@ fn tally(plan: Plan, fault: Fault, seeds: std::ops::Range<u64>) -> (Tally, Vec<(
             Option::None => words.push((key, 1)),
         }
         for (k, f) in found.found.iter().enumerate().filter(|(_, f)| !f.is_setup) {
-            if let Some((value, u)) = f.value {
+            if let Some(((value, _), expanded)) = f.value.zip(f.expanded()) {
                 tally.intervals += 1;
-                // k = 2 contains 95.45 %.
-                let k_95 = found.adequacy.coverage_factor();
-                tally.inside += usize::from((value - truth[k]).abs() <= k_95 * u);
+                tally.inside += usize::from((value - truth[k]).abs() <= expanded);
             }
         }
     }

@@ -8,11 +8,12 @@
 //! Together they call one good campaign in twenty bad. What the listed errors leave is shared out among those that
 //! are not listed ([`Unlisted`]); their covariance becomes part of that of the listed ones.
 
+use super::freedom::degrees_of_freedom;
 use super::predictor::{Predictor, predictor};
 use super::selection;
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
-use trueaxis_geometry::statistics::{chi_square_above, coverage_factor, fisher_above};
+use trueaxis_geometry::statistics::{chi_square_above, fisher_above};
 use trueaxis_measure::measure::Readings;
 use trueaxis_measure::unknowns::design::Design;
 use trueaxis_measure::unknowns::determined::{Determined, all_before};
@@ -109,9 +110,6 @@ pub struct Adequacy {
     pub kinds: Vec<Kind>,
     /// The noise in units of that which is stated, 1 or more. Unit: 1.
     pub noise: f64,
-    /// Degrees of freedom where noise and sizes follow from the residual; none where the noise is the stated one.
-    /// Unit: 1.
-    pub freedom: Option<f64>,
     /// The listed unknowns with all that is not listed.
     pub explained: Explained,
     /// How well readings are predicted where no single error can be named.
@@ -122,11 +120,6 @@ impl Adequacy {
     /// The kind that the residual looks like, if one is evident.
     pub fn evident(&self) -> Option<&Kind> {
         self.kinds.first().filter(|k| k.evidence > EVIDENCE)
-    }
-
-    /// How many standard uncertainties contain a value with 95 %: Student's t where the noise was found from the residual.
-    pub fn coverage_factor(&self) -> f64 {
-        self.freedom.map_or(2.0, |freedom| coverage_factor(freedom).max(2.0))
     }
 }
 
@@ -166,30 +159,35 @@ pub fn adequacy(task: Task<'_>) -> Result<Adequacy, FitError> {
     let is_barely_checked = fit.degrees_of_freedom as f64 / numbers < LEAST_FREEDOM;
     let prepared = Prepared::of(task);
     let (unlisted, ranges) = (&prepared.unlisted, &prepared.ranges);
-    let rest = prepared.rest(&prepared.sums(|_| true));
+    let sums = prepared.sums(|_| true);
+    let rest = prepared.rest(&sums);
     let mut explanations = rest.as_ref().map_or(Vec::new(), |rest| explanations(rest, ranges));
     if !lack.is_found() {
         explanations.truncate(1);
     }
-    let first = explanations.first().cloned().unwrap_or_else(|| Sizes::none(ranges.len()));
-    let shows = lack.is_found() || task.predicts;
-    let kinds = rest
-        .filter(|_| shows)
-        .map_or(Vec::new(), |rest| kinds(&rest, unlisted, ranges, &first.times));
-    let mut explained = Explained::of(task, unlisted, &first)?;
-    for other in explanations.iter().skip(1) {
-        let other = Explained::of(task, unlisted, other)?;
-        explained.widen(&other);
+    if explanations.is_empty() {
+        explanations.push(Sizes::none(ranges.len()));
     }
-    let freedom = (first.noise > 1.0 || lack.is_found()).then_some(lack.freedom.max(1.0));
-    let predictor = task.predicts.then(|| predictor(&prepared, &first, task)).flatten();
+    let first = &explanations[0];
+    let shows = rest.as_ref().filter(|_| lack.is_found() || task.predicts);
+    let kinds = shows.map_or(Vec::new(), |rest| kinds(rest, unlisted, ranges, &first.times));
+    let explained = |sizes: &Sizes| -> Result<Explained, FitError> {
+        let freedom = rest.as_ref().map(|rest| degrees_of_freedom(&prepared, (&sums, rest), sizes));
+        let freedom = freedom.unwrap_or_else(|| vec![None; task.design.unknowns()]);
+        Ok(Explained { degrees_of_freedom: freedom, ..Explained::of(task, unlisted, sizes)? })
+    };
+    let mut explained_by = explained(first)?;
+    for other in &explanations[1..] {
+        explained_by.widen(&explained(other)?);
+    }
+    let predictor =
+        task.predicts.then(|| predictor(&prepared, (&sums, &explanations), task)).flatten();
     Ok(Adequacy {
         lack,
         is_barely_checked,
         kinds,
         noise: first.noise,
-        freedom,
-        explained,
+        explained: explained_by,
         predictor,
     })
 }
@@ -203,6 +201,8 @@ pub struct Explained {
     pub fit: Fit,
     /// The listed unknowns.
     pub listed: Determined,
+    /// Effective degrees of freedom of the uncertainty of each; `None`: infinitely many. Unit: 1.
+    pub degrees_of_freedom: Vec<Option<f64>>,
 }
 
 impl Explained {
@@ -230,23 +230,32 @@ impl Explained {
             seen: of(&all.seen),
             is_determined: places.iter().map(|k| all.is_determined[*k]).collect(),
         };
-        Ok(Self { design, fit, listed: own })
+        Ok(Self { design, fit, listed: own, degrees_of_freedom: Vec::new() })
     }
 
-    /// The larger uncertainty of both, unknown by unknown: which explanation is right is not known.
+    /// The larger uncertainty of both with its degrees of freedom, unknown by unknown: which explanation is right is not
+    /// known.
     fn widen(&mut self, other: &Self) {
         let n = self.listed.values.len();
-        let larger = |own: &mut DMatrix<f64>, other: &DMatrix<f64>| {
-            let times = |k: usize| match own[(k, k)] {
-                v if v > 0.0 => (other[(k, k)] / v).sqrt().max(1.0),
-                _ => 1.0,
-            };
-            let times: Vec<f64> = (0..n).map(times).collect();
-            own.iter_mut().enumerate().for_each(|(i, v)| *v *= times[i % n] * times[i / n]);
-        };
+        for k in 0..n {
+            if other.listed.u(k) > self.listed.u(k) {
+                self.degrees_of_freedom[k] = other.degrees_of_freedom[k];
+            }
+        }
         larger(&mut self.listed.covariance, &other.listed.covariance);
         larger(&mut self.listed.seen, &other.listed.seen);
     }
+}
+
+/// A covariance with the larger variance of two, unknown by unknown; the correlations stay.
+pub(super) fn larger(own: &mut DMatrix<f64>, other: &DMatrix<f64>) {
+    let n = own.nrows();
+    let times = |k: usize| match own[(k, k)] {
+        v if v > 0.0 => (other[(k, k)] / v).sqrt().max(1.0),
+        _ => 1.0,
+    };
+    let times: Vec<f64> = (0..n).map(times).collect();
+    own.iter_mut().enumerate().for_each(|(i, v)| *v *= times[i % n] * times[i / n]);
 }
 
 /// The listed unknowns with all others, and readings that are linear about the fit of the listed ones.
@@ -305,24 +314,64 @@ impl<'a> Prepared<'a> {
     /// The best values of all unknowns for these sums and sizes, in the order of the design with all; 0 for groups of
     /// size 0.
     pub(super) fn values(&self, sums: &selection::Sums, sizes: &Sizes) -> Option<DVector<f64>> {
-        let before = all_before(self.task.design);
-        let mut u: Vec<f64> = before.iter().copied().collect();
-        for (range, times) in self.ranges.iter().zip(&sizes.times) {
-            u.extend(self.unlisted.sizes[range.clone()].iter().map(|s| s * times / sizes.noise));
-        }
+        let u = self.scale(sizes);
         let n = u.len();
-        let scaled = DMatrix::from_fn(n, n, |i, j| {
-            let own = if i == j { 1.0 } else { 0.0 };
-            sums.normal[(i, j)] * u[i] * u[j] + own
-        });
         let right = DVector::from_fn(n, |k, _| sums.gradient[k] * u[k]);
-        let solved = scaled.cholesky()?.solve(&right);
+        let solved = scaled(sums, &u).cholesky()?.solve(&right);
         let mut values = DVector::zeros(n);
         for (k, place) in self.order.iter().enumerate() {
             values[*place] = solved[k] * u[k];
         }
         Some(values)
     }
+
+    /// What is not known of each unknown before, in units of the noise that was found: the listed ones first.
+    pub(super) fn scale(&self, sizes: &Sizes) -> Vec<f64> {
+        let mut u: Vec<f64> = all_before(self.task.design).iter().copied().collect();
+        for (range, times) in self.ranges.iter().zip(&sizes.times) {
+            u.extend(self.unlisted.sizes[range.clone()].iter().map(|s| s * times / sizes.noise));
+        }
+        u
+    }
+
+    /// How many unknowns are listed.
+    pub(super) fn listed(&self) -> usize {
+        self.task.design.unknowns()
+    }
+
+    /// (N + Λ)⁻¹ of these sums and sizes, in units of the noise that was found: the listed unknowns first.
+    pub(super) fn inverse(&self, sums: &selection::Sums, sizes: &Sizes) -> Option<DMatrix<f64>> {
+        let u = self.scale(sizes);
+        let mut inverse = scaled(sums, &u).cholesky()?.inverse();
+        inverse.iter_mut().enumerate().for_each(|(i, v)| *v *= u[i % u.len()] * u[i / u.len()]);
+        Some(inverse)
+    }
+
+    /// The covariance of all unknowns, in the order of the design with all.
+    pub(super) fn covariance(&self, sums: &selection::Sums, sizes: &Sizes) -> Option<DMatrix<f64>> {
+        let inverse = self.inverse(sums, sizes)?;
+        let mut covariance = inverse.clone();
+        for (a, i) in self.order.iter().enumerate() {
+            for (b, j) in self.order.iter().enumerate() {
+                covariance[(*i, *j)] = inverse[(a, b)] * sizes.noise.powi(2);
+            }
+        }
+        Some(covariance)
+    }
+
+    /// What was known before, as normal equations: the listed unknowns first.
+    pub(super) fn known_before(&self) -> DMatrix<f64> {
+        let known = selection::Sums::of_priors(&self.all).normal;
+        known.select_rows(&self.order).select_columns(&self.order)
+    }
+}
+
+/// The normal equations with what is not known of each before as its unit.
+fn scaled(sums: &selection::Sums, u: &[f64]) -> DMatrix<f64> {
+    DMatrix::from_fn(u.len(), u.len(), |i, j| {
+        let own = if i == j { 1.0 } else { 0.0 };
+        sums.normal[(i, j)] * u[i] * u[j] + own
+    })
 }
 
 /// What could explain the rest, the most evident first: errors that are not listed, more noise, or both.

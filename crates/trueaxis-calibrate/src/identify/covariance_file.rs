@@ -8,6 +8,7 @@ use super::errors::Identification;
 use super::records::Records;
 use nalgebra::{DMatrix, DVector};
 use std::fmt::Write as _;
+use trueaxis_measure::instruments::Instrument;
 use trueaxis_measure::measure::Campaign;
 use trueaxis_measure::measure::prior::{nominal_mark, set_up};
 
@@ -24,27 +25,7 @@ pub fn covariance_file(
     records: &Records,
     date: Option<&str>,
 ) -> String {
-    let machine = &campaign.machine;
-    let mut text =
-        format!("{BEGINS}: a later campaign starts from it with prior = \"THIS FILE\"\n");
-    text += "# in mm, rad and s; `covariance`: with all before it, its own variance last\n\n";
-    // Writing to a String cannot fail.
-    let _ = writeln!(text, "[covariance]\nmachine = {:?}", machine.name());
-    let _ =
-        writeln!(text, "nominal = \"{}\"\ncampaign = {:?}", nominal_mark(machine), campaign.name);
-    if let Some(date) = date {
-        let _ = writeln!(text, "date = {date:?}");
-    }
-    for instrument in &found.design.instruments {
-        let _ = writeln!(text, "\n[setup.{:?}]", instrument.name);
-        for (key, value) in set_up(instrument) {
-            let _ = writeln!(text, "{key} = {value:?}");
-        }
-    }
-    let before = campaign.stages.prior.iter().flat_map(|prior| &prior.readings);
-    for (file, mark) in before.chain(&records.marks) {
-        let _ = writeln!(text, "\n[[readings]]\nfile = {file:?}\nmark = \"{mark}\"");
-    }
+    let mut text = head(campaign, records, (&found.design.instruments, date));
     let rows = rows(found);
     let values = &rows * DVector::from_column_slice(&found.fit.values);
     let covariance = &rows * &found.fit.covariance * rows.transpose();
@@ -62,6 +43,36 @@ pub fn covariance_file(
             covariance[(i, i)].max(0.0).sqrt(),
             variances.join(", ")
         );
+    }
+    text
+}
+
+/// Whose values they are, how the instruments stood, and which readings are in them.
+pub(super) fn head(
+    campaign: &Campaign,
+    records: &Records,
+    (instruments, date): (&[Instrument], Option<&str>),
+) -> String {
+    let machine = &campaign.machine;
+    let mut text =
+        format!("{BEGINS}: a later campaign starts from it with prior = \"THIS FILE\"\n");
+    text += "# in mm, rad and s; `covariance`: with all before it, its own variance last\n\n";
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "[covariance]\nmachine = {:?}", machine.name());
+    let _ =
+        writeln!(text, "nominal = \"{}\"\ncampaign = {:?}", nominal_mark(machine), campaign.name);
+    if let Some(date) = date {
+        let _ = writeln!(text, "date = {date:?}");
+    }
+    for instrument in instruments {
+        let _ = writeln!(text, "\n[setup.{:?}]", instrument.name);
+        for (key, value) in set_up(instrument) {
+            let _ = writeln!(text, "{key} = {value:?}");
+        }
+    }
+    let before = campaign.stages.prior.iter().flat_map(|prior| &prior.readings);
+    for (file, mark) in before.chain(&records.marks) {
+        let _ = writeln!(text, "\n[[readings]]\nfile = {file:?}\nmark = \"{mark}\"");
     }
     text
 }

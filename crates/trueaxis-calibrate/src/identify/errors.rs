@@ -11,6 +11,7 @@ use super::checks::{check_records, tell_fault};
 use super::conflict::check_conflicts;
 use super::convention::{ConventionCheck, check_conventions};
 use super::feeds::{Feeds, check_feeds, feeds};
+use super::freedom::coverage_factor;
 use super::gross::without_gross;
 use super::influence::{Influences, influences};
 use super::records::{Loss, Options, Records};
@@ -52,12 +53,24 @@ pub struct Found {
     pub is_setup: bool,
     /// Value and standard uncertainty, mm, rad or 1; none if it is not observable.
     pub value: Option<(f64, f64)>,
+    /// Effective degrees of freedom of the uncertainty; `None`: infinitely many. Unit: 1.
+    pub degrees_of_freedom: Option<f64>,
 }
 
 impl Found {
     /// Value over uncertainty.
     pub fn z(&self) -> Option<f64> {
         self.value.filter(|(_, u)| *u > 0.0).map(|(value, u)| value / u)
+    }
+
+    /// How many standard uncertainties contain the value with 95.45 %.
+    pub fn coverage_factor(&self) -> f64 {
+        coverage_factor(self.degrees_of_freedom)
+    }
+
+    /// U = k u, mm, rad or 1; none if it is not observable.
+    pub fn expanded(&self) -> Option<f64> {
+        self.value.map(|(_, u)| self.coverage_factor() * u)
     }
 }
 
@@ -199,6 +212,17 @@ pub struct Identification {
     pub feeds: Feeds,
     /// The stages one after the other, if the campaign has any.
     pub sequence: Option<Sequence>,
+}
+
+impl Identification {
+    /// The largest coverage factor of the values. Unit: 1.
+    pub fn coverage_factor(&self) -> f64 {
+        self.found
+            .iter()
+            .filter(|f| f.value.is_some())
+            .map(Found::coverage_factor)
+            .fold(2.0, f64::max)
+    }
 }
 
 /// Identifies; `None` with errors in `problems`.
@@ -373,7 +397,7 @@ impl<'a> Work<'a> {
         let suspicious = score.in_sample.noise > SUSPICIOUS;
         let unobservable = |c: &Confusion| Unobservable::of(campaign, &self.whole, c);
         Ok(Identification {
-            found: found(design, &determined),
+            found: found(design, &determined, &adequacy.explained.degrees_of_freedom),
             left_out: left_out.filter_map(|k| self.whole.unknown(*k)).map(|u| u.name()).collect(),
             unobservable: self.confusions.iter().map(unobservable).collect(),
             candidates: self.candidates.maybe.len(),
@@ -463,7 +487,7 @@ pub fn birge(fit: &Fit) -> f64 {
     (fit.chi_square / free).sqrt()
 }
 
-fn found(design: &Design, determined: &Determined) -> Vec<Found> {
+fn found(design: &Design, determined: &Determined, freedom: &[Option<f64>]) -> Vec<Found> {
     (0..design.unknowns())
         .filter_map(|k| Some((k, design.unknown(k)?)))
         .map(|(k, unknown)| {
@@ -476,6 +500,7 @@ fn found(design: &Design, determined: &Determined) -> Vec<Found> {
                 is_share: unknown.is_share(),
                 is_setup: matches!(unknown, Unknown::Setup(..)),
                 value: determined.is_determined[k].then_some(value),
+                degrees_of_freedom: freedom.get(k).copied().flatten(),
             }
         })
         .collect()

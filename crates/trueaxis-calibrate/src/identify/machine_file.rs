@@ -5,10 +5,11 @@
 //! becomes a comment. The file is read back before anybody gets it.
 
 use super::errors::Identification;
+use nalgebra::DMatrix;
 use std::collections::BTreeMap;
 use trueaxis_input::Severity;
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::AxisKind;
+use trueaxis_machine::axis::{AxisKind, MAX_AXES};
 use trueaxis_machine::describe::lines::Lines;
 use trueaxis_machine::describe::replacement::{Entry, curve_text, plain, put, take_out_of_table};
 use trueaxis_machine::errors::{ErrorKind, ErrorName};
@@ -38,15 +39,7 @@ pub fn machine_file(
 ) -> Result<MachineFile, String> {
     let mut tables = Vec::new();
     let mut file = Lines::of(old);
-    let instruments: Vec<&str> = campaign.instruments.iter().map(|i| i.kind.name()).collect();
-    let mut names = instruments.clone();
-    names.dedup();
-    let origin = format!(
-        "identified with {} ({}{})",
-        names.join(", "),
-        one_line(&campaign.name),
-        date.map(|d| format!(", {}", one_line(d))).unwrap_or_default()
-    );
+    let origin = format!("identified with {}", origin(campaign, date));
     for (name, terms) in unknowns(campaign, found) {
         let entry = entry((campaign, found), (name, &terms), &origin, &mut tables);
         take_out_of_table(&mut file, name, &origin, &mut tables, beside);
@@ -57,8 +50,20 @@ pub fn machine_file(
     Ok(MachineFile { text, tables })
 }
 
-fn one_line(text: &str) -> String {
+pub(super) fn one_line(text: &str) -> String {
     text.replace(['\n', '\r'], " ")
+}
+
+/// Instruments, campaign and date: `probe-ball (my mill, 2026-01-31)`.
+pub(super) fn origin(campaign: &Campaign, date: Option<&str>) -> String {
+    let mut names: Vec<&str> = campaign.instruments.iter().map(|i| i.kind.name()).collect();
+    names.dedup();
+    format!(
+        "{} ({}{})",
+        names.join(", "),
+        one_line(&campaign.name),
+        date.map(|d| format!(", {}", one_line(d))).unwrap_or_default()
+    )
 }
 
 /// Every unknown error, with the terms of the result and their numbers.
@@ -101,23 +106,29 @@ fn entry(
         let value = plain(values[0].1 * scale);
         return Entry::Value(format!("\"{value} ± {} {unit}\"", plain(u * scale)));
     }
-    let u = curve_u(found, terms);
+    let u = largest_u(found.reach, &found.fit.covariance, terms);
     let measured = format!(", measured = {{ instrument = {origin:?} }} }}");
     let is_rotary =
         terms[0].1.axis.is_some_and(|i| campaign.machine.axes()[i].kind == AxisKind::Rotary);
     Entry::Value(curve_text(name, is_rotary, &stated(&values, None), u, tables) + &measured)
 }
 
-/// The greatest standard uncertainty of a curve over its axis.
-fn curve_u(found: &Identification, terms: &[(usize, Term)]) -> f64 {
-    let Some(axis) = terms[0].1.axis else { return 0.0 };
-    let [low, high] = found.reach[axis];
+/// The greatest standard uncertainty of one error over the reach of its axis, from the covariance of its terms.
+pub(super) fn largest_u(
+    reach: [[f64; 2]; MAX_AXES],
+    all: &DMatrix<f64>,
+    terms: &[(usize, Term)],
+) -> f64 {
+    let axis = terms.first().and_then(|(_, term)| term.axis);
+    let [low, high] = axis.map_or([0.0; 2], |axis| reach[axis]);
     let at = |q: f64| {
         let mut command = [0.0; 6];
-        command[axis] = q;
+        if let Some(axis) = axis {
+            command[axis] = q;
+        }
         let side = [0.0; 6];
         let phi: Vec<f64> = terms.iter().map(|(_, t)| t.value(&command, &side)).collect();
-        let covariance = |a: usize, b: usize| found.fit.covariance[(terms[a].0, terms[b].0)];
+        let covariance = |a: usize, b: usize| all[(terms[a].0, terms[b].0)];
         let pairs = (0..phi.len()).flat_map(|a| (0..phi.len()).map(move |b| (a, b)));
         pairs.map(|(a, b)| phi[a] * phi[b] * covariance(a, b)).sum::<f64>().max(0.0).sqrt()
     };

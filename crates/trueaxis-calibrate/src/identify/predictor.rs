@@ -9,11 +9,12 @@
 //! readings that were held out: every tenth of the places, and all readings at one angle of a rotary axis; the sizes
 //! are found again without them.
 
-use super::adequacy::{Prepared, Task, explanations};
+use super::adequacy::{Prepared, Task, explanations, larger};
 use super::score::Rms;
-use super::selection::parts_by_place;
-use nalgebra::DVector;
+use super::selection::{Sums, parts_by_place};
+use nalgebra::{DMatrix, DVector};
 use trueaxis_machine::axis::{Axis, AxisKind};
+use trueaxis_measure::unknowns::design::Design;
 use trueaxis_measure::unknowns::fit::linear_residuals;
 use trueaxis_measure::unknowns::mixed::Sizes;
 
@@ -37,20 +38,33 @@ pub struct HeldOut {
     pub listed: Rms,
 }
 
-/// How well readings are predicted.
-#[derive(Debug, Clone, PartialEq)]
+/// How well readings are predicted, and by what.
+#[derive(Debug, Clone)]
 pub struct Predictor {
     /// On the readings themselves.
     pub in_sample: Rms,
     /// On readings that were held out.
     pub held_out: Vec<HeldOut>,
-    /// The values of all errors, in the order of the design with all. Unit: mm, rad or 1.
+    /// The listed errors and all others; those whose size is 0 are in it with the value 0.
+    pub design: Design,
+    /// The values of all errors, in the order of that design. Unit: mm, rad or 1.
     pub values: DVector<f64>,
+    /// Their covariance: σ² (N + σ² Λ)⁻¹.
+    pub covariance: DMatrix<f64>,
 }
 
-/// Predicts; `None` if the sums are not finite.
-pub(super) fn predictor(all: &Prepared<'_>, sizes: &Sizes, task: Task<'_>) -> Option<Predictor> {
-    let values = all.values(&all.sums(|_| true), sizes)?;
+/// Predicts by the first explanation, with the larger uncertainties of all; `None` if the sums are not finite.
+pub(super) fn predictor(
+    all: &Prepared<'_>,
+    (sums, explanations): (&Sums, &[Sizes]),
+    task: Task<'_>,
+) -> Option<Predictor> {
+    let first = explanations.first()?;
+    let values = all.values(sums, first)?;
+    let mut covariance = all.covariance(sums, first)?;
+    for other in &explanations[1..] {
+        larger(&mut covariance, &all.covariance(sums, other)?);
+    }
     let in_sample = rms(all, task, |_| &values);
     let mut splits = Vec::new();
     if task.readings.len() <= MOST_ROWS {
@@ -58,7 +72,8 @@ pub(super) fn predictor(all: &Prepared<'_>, sizes: &Sizes, task: Task<'_>) -> Op
         splits.extend(angles(task).into_iter().map(|(axis, parts)| (Some(axis), parts)));
     }
     let held_out = splits.into_iter().filter_map(|(axis, part)| held_out(all, task, axis, &part));
-    Some(Predictor { in_sample, held_out: held_out.collect(), values })
+    let (held_out, design) = (held_out.collect(), all.all.clone());
+    Some(Predictor { in_sample, held_out, design, values, covariance })
 }
 
 fn rms<'v>(

@@ -238,17 +238,29 @@ fn error_section<'a>(answer: &IdentificationReport<'a>) -> Section<'a> {
             None => ["not observable", "", ""].map(str::to_owned),
         };
         let z = f.z().map_or(String::new(), |z| format!("{z:.1}"));
-        [f.name.clone(), value, u, unit, z]
+        let [freedom, expanded] = match f.expanded() {
+            Some(expanded) => [freedom_words(f.degrees_of_freedom), number(expanded)],
+            None => [const { String::new() }; 2],
+        };
+        [f.name.clone(), value, u, unit, z, freedom, expanded]
     };
     let left_out = &answer.found.left_out;
-    let note = match left_out.is_empty() {
-        true => String::new(),
-        false => format!("Not supported by the readings: {}.", left_out.join(", ")),
-    };
-    let table = Table::new(["error", "value", "standard uncertainty", "", "z"]).note(note);
+    let mut note = "U: 95.45 %, k by Student's t with ν effective degrees of freedom (Welch and Satterthwaite); ν = ∞ where \
+                    noise and sizes are as stated."
+        .to_owned();
+    if !left_out.is_empty() {
+        note += &format!(" Not supported by the readings: {}.", left_out.join(", "));
+    }
+    let head = ["error", "value", "standard uncertainty", "", "z", "ν", "U"];
+    let table = Table::new(head).note(note);
     Section::new("The errors")
         .grid(Columns::AsFit, [false, true].into_iter().filter_map(figure))
         .table(table.rows(found.iter().map(row)).most_on_terminal(usize::MAX))
+}
+
+/// ν; beyond a thousand it makes no difference.
+fn freedom_words(freedom: Option<f64>) -> String {
+    freedom.map_or_else(|| "∞".to_owned(), |freedom| format!("{freedom:.1}"))
 }
 
 /// At which feeds it was read, the gain mismatch of the axes, and what cannot be separated.
@@ -292,7 +304,7 @@ fn feed_section<'a>(answer: &IdentificationReport<'_>) -> Option<Section<'a>> {
 
 fn bar(found: &Found) -> Option<Bar<'_>> {
     let (value, u) = found.value?;
-    let (value, half) = (shown(found, value), 1.96 * shown(found, u));
+    let (value, half) = (shown(found, value), shown(found, found.coverage_factor() * u));
     Some(Bar { name: &found.name, value, half, text: format!("{value:.2} {}", unit(found)) })
 }
 

@@ -76,8 +76,7 @@ pub struct IdentificationDocument<'a> {
     pub birge_ratio: f64,
     /// The test of the residual.
     pub test: TestEntry,
-    /// How many standard uncertainties contain a value with 95 %: 2, or Student's t where the noise was found from the
-    /// residual. Unit: 1.
+    /// The largest coverage factor of the values. Unit: 1.
     pub coverage_factor: f64,
     /// What the residual follows, the most evident first.
     pub residual_follows: Vec<FieldEntry>,
@@ -112,14 +111,18 @@ pub struct VerdictEntry {
 pub struct FoundEntry<'a> {
     /// Its name.
     pub name: &'a str,
-    /// `value_um` and its standard uncertainty `u_um`, `value_urad` and `u_urad`, `value_ms` and
-    /// `u_ms` (lag), or `value_um_per_m` and `u_um_per_m` (scale, material); null if not observable.
+    /// `value_um`, its standard uncertainty `u_um` and its expanded uncertainty `U_um` = k u (95.45 %); the same with
+    /// `urad`, `ms` (lag) or `um_per_m` (scale, material); null if not observable.
     #[serde(flatten)]
     pub value: Keyed<Option<f64>>,
     /// The standard uncertainty again. Unit: that of the value.
     pub u: Option<f64>,
     /// Value divided by its standard uncertainty. Unit: 1.
     pub z: Option<f64>,
+    /// Effective degrees of freedom of u; null if they are infinite or the value is not observable. Unit: 1.
+    pub degrees_of_freedom: Option<f64>,
+    /// k for 95.45 %; null if not observable. Unit: 1.
+    pub coverage_factor: Option<f64>,
 }
 
 /// Root mean squares of the residual.
@@ -286,7 +289,7 @@ impl<'a> IdentificationDocument<'a> {
             feeds: &found.feeds,
             birge_ratio: found.adequacy.noise,
             test: test(found),
-            coverage_factor: found.adequacy.coverage_factor(),
+            coverage_factor: found.coverage_factor(),
             residual_follows: fields(report),
             prediction: prediction(found),
             selection: SelectionEntry {
@@ -358,15 +361,23 @@ fn influence(report: &IdentificationReport<'_>, row: usize) -> InfluenceEntry {
 impl<'a> From<&'a Found> for FoundEntry<'a> {
     fn from(found: &'a Found) -> Self {
         let names = match (found.is_time, found.is_angle) {
-            _ if found.is_share => ["value_um_per_m", "u_um_per_m"],
-            (true, _) => ["value_ms", "u_ms"],
-            (_, true) => ["value_urad", "u_urad"],
-            _ => ["value_um", "u_um"],
+            _ if found.is_share => ["value_um_per_m", "u_um_per_m", "U_um_per_m"],
+            (true, _) => ["value_ms", "u_ms", "U_ms"],
+            (_, true) => ["value_urad", "u_urad", "U_urad"],
+            _ => ["value_um", "u_um", "U_um"],
         };
         let u = found.value.map(|(_, u)| shown(found, u));
         let value = found.value.map(|(v, _)| shown(found, v));
-        let value = names.into_iter().zip([value, u]).collect();
-        Self { name: &found.name, value, u, z: found.z() }
+        let expanded = found.expanded().map(|u| shown(found, u));
+        let value = names.into_iter().zip([value, u, expanded]).collect();
+        Self {
+            name: &found.name,
+            value,
+            u,
+            z: found.z(),
+            degrees_of_freedom: found.value.and(found.degrees_of_freedom),
+            coverage_factor: found.value.map(|_| found.coverage_factor()),
+        }
     }
 }
 

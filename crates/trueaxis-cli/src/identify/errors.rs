@@ -15,6 +15,10 @@ pub struct CampaignArguments {
     /// Write a machine file with the identified errors, their uncertainties and sources
     #[arg(short, long, value_name = "MACHINE.toml")]
     output: Option<PathBuf>,
+    /// Write a machine file with the prediction by all errors, listed or not, and their covariance beside it: for
+    /// compensation where single errors cannot be separated
+    #[arg(long, value_name = "MACHINE.toml")]
+    predictor: Option<PathBuf>,
     /// Try other signs, orders, senses, sides and units of the readings, and name those that fit far better
     #[arg(long)]
     check_conventions: bool,
@@ -28,6 +32,7 @@ pub fn run(arguments: &CampaignArguments) -> Outcome {
         campaign: file.clone(),
         table: None,
         output: arguments.output.clone(),
+        predictor: arguments.predictor.clone(),
         check_conventions: arguments.check_conventions,
     };
     arguments.door.door().ask(&question)

@@ -156,10 +156,21 @@ pub fn curve_text(
     u: f64,
     tables: &mut Vec<(String, String)>,
 ) -> String {
+    curve_text_by(plain, (name, is_rotary), stated, u, tables)
+}
+
+/// The same with numbers written in another way.
+pub fn curve_text_by(
+    number: fn(f64) -> String,
+    (name, is_rotary): (ErrorName, bool),
+    stated: &StatedError,
+    u: f64,
+    tables: &mut Vec<(String, String)>,
+) -> String {
     let angle = name.component.is_rotation();
     let (scale, unit) = if angle { (1e6, "urad") } else { (1e3, "um") };
     let (position, shown) = if is_rotary { ("deg", 1f64.to_degrees()) } else { ("mm", 1.0) };
-    let quantity = |v: f64| format!("\"{} {unit}\"", plain(v * scale));
+    let quantity = |v: f64| format!("\"{} {unit}\"", number(v * scale));
     let mut text = match &stated.mean {
         Curve::Constant(c) => format!("{{ constant = {}", quantity(*c)),
         Curve::Polynomial { coefficients, origin, scale } => {
@@ -182,7 +193,7 @@ pub fn curve_text(
             let file = format!("identified-{name}.csv");
             let mut table = format!("# {name}, identified\nposition_{position},{name}_{unit}\n");
             for at in spline.knots() {
-                let value = plain(spline.at(*at) * scale);
+                let value = number(spline.at(*at) * scale);
                 // Writing into a text cannot fail.
                 let _ = writeln!(table, "{},{value}", at * shown);
             }

@@ -1,6 +1,7 @@
 //! What one standard uncertainty of each stated quantity changes.
 
 use super::{ErrorIndex, ErrorValues};
+use nalgebra::DMatrix;
 use trueaxis_geometry::Vec3;
 
 /// What one standard uncertainty of one quantity does.
@@ -60,6 +61,18 @@ impl Uncertainties {
             effect.act(&mut displaced, z);
         }
         displaced
+    }
+
+    /// What one standard uncertainty of each quantity adds to some errors: a row for each quantity.
+    pub fn of_quantities(&self, quantities: usize, errors: &[ErrorIndex]) -> DMatrix<f64> {
+        let mut moved = DMatrix::zeros(quantities, errors.len());
+        for (quantity, effect) in self.0.iter().filter(|(quantity, _)| *quantity < quantities) {
+            let Effect::Error(index, u) = effect else { continue };
+            if let Some(k) = errors.iter().position(|own| own == index) {
+                moved[(*quantity, k)] += u;
+            }
+        }
+        moved
     }
 
     /// The standard uncertainty of each error; of the growth of the workpiece along each axis.

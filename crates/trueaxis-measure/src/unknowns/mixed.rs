@@ -11,6 +11,7 @@
 //! 1971); the steps of eq. 304 are those of MacKay 1992, section 4. F are the listed unknowns, G the others with their usual size.
 
 use nalgebra::{DMatrix, DVector};
+use std::ops::Range;
 
 /// A share of the usual size below which a group is nothing.
 const NOTHING: f64 = 1e-3;
@@ -20,6 +21,11 @@ const LARGEST: f64 = 100.0;
 const STEPS: usize = 60;
 /// Steps that change no size by more than this share end it.
 const SETTLED: f64 = 1e-3;
+
+/// More degrees of freedom than this make no difference.
+const MANY: f64 = 1e6;
+/// Less information on the logarithm of a size is none.
+const NO_INFORMATION: f64 = 1e-9;
 
 /// Sums of readings that are linear about a solution, in units of their noise.
 #[derive(Debug, Clone, Copy)]
@@ -102,7 +108,7 @@ impl Rest {
     }
 
     /// The sizes of all groups, where the noise is as stated or larger.
-    pub fn sizes(&self, groups: &[std::ops::Range<usize>], noise_is_free: bool) -> Sizes {
+    pub fn sizes(&self, groups: &[Range<usize>], noise_is_free: bool) -> Sizes {
         let mut t: Vec<f64> = vec![1.0; groups.len()];
         let mut noise = 1.0_f64;
         for _ in 0..STEPS {
@@ -131,12 +137,68 @@ impl Rest {
     }
 
     /// −2 ln L of these sizes. Unit: 1.
-    pub fn deviance(&self, groups: &[std::ops::Range<usize>], times: &[f64], noise: f64) -> f64 {
+    pub fn deviance(&self, groups: &[Range<usize>], times: &[f64], noise: f64) -> f64 {
         let t: Vec<f64> = times.iter().map(|t| t * t).collect();
         self.state(groups, &t, noise).map_or(f64::INFINITY, |s| s.deviance)
     }
 
-    fn state(&self, groups: &[std::ops::Range<usize>], t: &[f64], noise: f64) -> Option<State> {
+    /// How well the sizes are known: the covariance of ln t of every group, then of ln σ² where the noise was found,
+    /// too. What is 0, or as stated, counts as known.
+    ///
+    /// ```text
+    ///     K = 1 − T^−½ C T^−½     I_gh = ½ |K_gh|²     I_gσ = ½ (tr K_gg − |K_g|²)
+    ///     I_σσ = ½ (n − p − 2 tr K + |K|²)             covariance = I⁻¹                   docs/model.md eq. 311
+    /// ```
+    ///
+    /// `None` if the sums are not finite.
+    pub fn covariance_of_sizes(
+        &self,
+        groups: &[Range<usize>],
+        sizes: &Sizes,
+    ) -> Option<DMatrix<f64>> {
+        let noise_is_free = sizes.noise > 1.0;
+        let of = |g: usize| groups[g].clone().map(move |j| (j, g));
+        let members: Vec<(usize, usize)> =
+            (0..groups.len()).filter(|g| sizes.times[*g] > 0.0).flat_map(of).collect();
+        let m = members.len();
+        let root = |a: usize| sizes.times[members[a].1] / sizes.noise;
+        // 1 + T^½ S T^½/σ², whose inverse is T^−½ C T^−½.
+        let matrix = DMatrix::from_fn(m, m, |a, b| {
+            let own = if a == b { 1.0 } else { 0.0 };
+            self.s[(members[a].0, members[b].0)] * root(a) * root(b) + own
+        });
+        let k = DMatrix::identity(m, m) - matrix.cholesky()?.inverse();
+        let sigma = groups.len();
+        let mut information = DMatrix::<f64>::zeros(sigma + 1, sigma + 1);
+        for (a, (_, g)) in members.iter().enumerate() {
+            for (b, (_, h)) in members.iter().enumerate() {
+                information[(*g, *h)] += 0.5 * k[(a, b)].powi(2);
+            }
+            let with_noise = 0.5 * (k[(a, a)] - k.row(a).norm_squared());
+            information[(*g, sigma)] += with_noise;
+            information[(sigma, *g)] += with_noise;
+        }
+        let own = self.freedom - 2.0 * k.trace() + k.norm_squared();
+        information[(sigma, sigma)] = 0.5 * own.max(1.0);
+        let is_free = |i: &usize| match *i == sigma {
+            true => noise_is_free,
+            false => sizes.times[*i] > 0.0,
+        };
+        let free: Vec<usize> = (0..=sigma).filter(is_free).collect();
+        let mut of_free = information.select_rows(&free).select_columns(&free);
+        // A size of which the readings say nothing is not known at all.
+        (0..free.len()).for_each(|i| of_free[(i, i)] += NO_INFORMATION);
+        let inverse = of_free.cholesky()?.inverse();
+        let mut covariance = DMatrix::zeros(sigma + 1, sigma + 1);
+        for (a, i) in free.iter().enumerate() {
+            for (b, j) in free.iter().enumerate() {
+                covariance[(*i, *j)] = inverse[(a, b)];
+            }
+        }
+        Some(covariance)
+    }
+
+    fn state(&self, groups: &[Range<usize>], t: &[f64], noise: f64) -> Option<State> {
         let variance = noise * noise;
         let of = |g: usize| groups[g].clone().map(move |j| (j, g));
         let members: Vec<(usize, usize)> =
@@ -169,6 +231,55 @@ impl Rest {
         state.residual = (self.square - r.dot(&v) - penalty).max(0.0);
         Some(state)
     }
+}
+
+/// What a covariance follows from: the unknowns, the listed ones first, then the groups.
+#[derive(Debug, Clone, Copy)]
+pub struct Solved<'a> {
+    /// (N + Λ)⁻¹ in units of the noise.
+    pub inverse: &'a DMatrix<f64>,
+    /// Λ^−½: what is not known of each before, in units of the noise.
+    pub scale: &'a [f64],
+    /// The part of N that was known before and not read.
+    pub before: &'a DMatrix<f64>,
+    /// How many unknowns are listed.
+    pub listed: usize,
+}
+
+/// ν of the uncertainty of each listed unknown: how well the sizes are known on which it rests; `None`: infinitely many.
+///
+/// ```text
+///     w_g = Σ_{j∈g} C_kj²/(t_g D_j²) / C_kk      w_σ = 1 − Σ w_g − the share of what was known before
+///     ν = 2/(wᵀ A w)      A: the covariance of ln t_g and ln σ² (eq. 311)                  docs/model.md eq. 312
+/// ```
+///
+/// w are the derivatives of ln u² after ln t_g and ln σ²; 2/ν is the relative variance of u² (Satterthwaite 1946; for
+/// variance components Giesbrecht and Burns 1985, Kuznetsova et al. 2017).
+pub fn degrees_of_freedom(
+    solved: Solved<'_>,
+    groups: &[Range<usize>],
+    of_sizes: &DMatrix<f64>,
+) -> Vec<Option<f64>> {
+    let Solved { inverse, scale, before, listed } = solved;
+    let share = |k: usize, j: usize| match scale[j] > 0.0 {
+        true => (inverse[(k, j)] / scale[j]).powi(2) / inverse[(k, k)],
+        false => 0.0,
+    };
+    let of = |k: usize| {
+        if inverse[(k, k)] <= 0.0 {
+            return None;
+        }
+        let of_group = |g: &Range<usize>| g.clone().map(|j| share(k, listed + j)).sum::<f64>();
+        let mut w: Vec<f64> = groups.iter().map(of_group).collect();
+        let row = inverse.row(k);
+        let known = (row * before * row.transpose())[(0, 0)] / inverse[(k, k)];
+        let of_scale: f64 = (0..scale.len()).map(|j| share(k, j)).sum();
+        w.push((1.0 - of_scale - known).max(0.0));
+        let w = DVector::from_vec(w);
+        let relative = w.dot(&(of_sizes * &w));
+        (relative > 2.0 / MANY).then(|| 2.0 / relative)
+    };
+    (0..listed).map(of).collect()
 }
 
 /// The groups at some sizes.
@@ -213,5 +324,95 @@ mod tests {
         assert!((sizes.times[0].powi(2) - (32.0 / 3.0 - 0.5)).abs() < 0.02, "{sizes:?}");
         // −2 ln L there is less than without the group.
         assert!(sizes.deviance < rest.deviance(all, &[0.0], 1.0));
+    }
+
+    /// ν of the listed unknowns (columns of `x`) with groups of readings, and the sizes: these, or found from y.
+    fn freedom(
+        x: &[Vec<f64>],
+        of: &[Vec<usize>],
+        sizes: Result<(&[f64], f64), &[f64]>,
+    ) -> (Vec<f64>, Sizes) {
+        let (n, p) = (x[0].len(), x.len());
+        let counts: Vec<usize> =
+            of.iter().map(|g| g.iter().max().map_or(0, |most| most + 1)).collect();
+        let starts: Vec<usize> = (0..of.len()).map(|g| counts[..g].iter().sum()).collect();
+        let groups: Vec<Range<usize>> =
+            (0..of.len()).map(|g| starts[g]..starts[g] + counts[g]).collect();
+        let q: usize = counts.iter().sum();
+        let mut all = DMatrix::zeros(n, p + q);
+        for i in 0..n {
+            x.iter().enumerate().for_each(|(k, column)| all[(i, k)] = column[i]);
+            of.iter().zip(&starts).for_each(|(g, start)| all[(i, p + start + g[i])] = 1.0);
+        }
+        let y = DVector::from_column_slice(sizes.err().unwrap_or(&vec![0.0; n]));
+        let (normal, gradient) = (all.tr_mul(&all), all.tr_mul(&y));
+        let (square, weak) = (y.norm_squared(), DVector::from_element(p, 1e5));
+        let sums = Sums { normal: &normal, gradient: &gradient, square, numbers: n, listed: p };
+        let rest = Rest::of(sums, &weak, &vec![1.0; q]).expect("finite");
+        let found = match sizes {
+            Err(_) => rest.sizes(&groups, true),
+            Ok((t, noise)) => Sizes {
+                times: t.iter().map(|t| t.sqrt()).collect(),
+                noise,
+                ..Sizes::none(of.len())
+            },
+        };
+        let mut scale = vec![1e5; p];
+        let each = groups.iter().zip(&found.times);
+        scale.extend(each.flat_map(|(g, t)| g.clone().map(move |_| t / found.noise)));
+        let mut weighted = normal.clone();
+        (0..p + q).for_each(|i| weighted[(i, i)] += scale[i].powi(-2));
+        let inverse = weighted.try_inverse().expect("with a prior");
+        let before = DMatrix::zeros(p + q, p + q);
+        let solved = Solved { inverse: &inverse, scale: &scale, before: &before, listed: p };
+        let of_sizes = rest.covariance_of_sizes(&groups, &found).expect("finite");
+        let freedom = degrees_of_freedom(solved, &groups, &of_sizes);
+        (freedom.into_iter().map(|v| v.expect("a finite number")).collect(), found)
+    }
+
+    #[test]
+    fn law_the_mean_of_balanced_groups_has_their_number_less_one() {
+        // Balanced one-way layout: u² of the mean is a mean square of a − 1 degrees of freedom (Searle, Casella,
+        // McCulloch 1992, section 3.6), whether σ is known or not.
+        for (groups, each, t, noise) in
+            [(6, 4, 2.0, 1.0), (6, 4, 2.0, 1.7), (3, 2, 0.1, 1.3), (9, 5, 30.0, 1.0)]
+        {
+            let of = (0..groups * each).map(|i| i / each).collect();
+            let (found, _) = freedom(&[vec![1.0; groups * each]], &[of], Ok((&[t], noise)));
+            let expected = groups as f64 - 1.0;
+            assert!((found[0] - expected).abs() < 1e-5, "{}, not {expected}", found[0]);
+        }
+    }
+
+    /// Two crossed groups with unequal counts, by `oracles/freedom.py` with the dense covariance of the readings.
+    #[test]
+    fn oracle_degrees_of_freedom_of_crossed_groups() {
+        let of = [
+            vec![0, 0, 0, 1, 1, 2, 2, 2, 2, 3, 4, 4, 5, 5, 5],
+            vec![0, 1, 2, 0, 1, 0, 1, 2, 3, 3, 0, 1, 2, 3, 3],
+        ];
+        let x = [vec![1.0; 15], (0..15).map(|i| 0.1 * f64::from(i) - 0.6).collect()];
+        for (t, noise, expected) in [
+            ([1.5, 0.7], 1.0, [4.868_760, 4.343_998]),
+            ([1.5, 0.7], 1.5, [3.710_378, 3.982_919]),
+            ([4.0, 0.2], 1.2, [4.200_886, 5.491_729]),
+        ] {
+            let (found, _) = freedom(&x, &of, Ok((&t, noise)));
+            for (found, expected) in found.iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-5, "{found}, not {expected}");
+            }
+        }
+        // The sizes that have the largest restricted likelihood; statsmodels finds them, too.
+        let y = [4.9, 0.8, 4.7, 1.1, -1.3, 3.6, 1.2, 1.0, 1.4, -1.9, 7.2, 2.4, 0.9, 0.2, 3.3];
+        let (found, sizes) = freedom(&x, &of, Err(&y));
+        for (found, expected) in [
+            (sizes.times[0].powi(2), 4.953_011),
+            (sizes.times[1].powi(2), 2.007_687),
+            (sizes.noise.powi(2), 1.820_568),
+            (found[0], 5.358_315),
+            (found[1], 4.701_080),
+        ] {
+            assert!((found / expected - 1.0).abs() < 0.01, "{found}, not {expected}");
+        }
     }
 }

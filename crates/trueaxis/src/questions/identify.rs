@@ -9,6 +9,7 @@ use trueaxis_calibrate::identify::convention::{ConventionCheck, check_convention
 use trueaxis_calibrate::identify::covariance_file::covariance_file;
 use trueaxis_calibrate::identify::errors::{Identification, identify};
 use trueaxis_calibrate::identify::machine_file::{MachineFile, machine_file};
+use trueaxis_calibrate::identify::predictor_file::{PredictorFile, judge, predictor_file};
 use trueaxis_calibrate::identify::records::{
     Dropped, Options, Records, read_options, read_records_with,
 };
@@ -27,6 +28,8 @@ pub struct Identify {
     pub table: Option<DroppedTable>,
     /// Where a machine file with the errors found goes.
     pub output: Option<PathBuf>,
+    /// Where a machine file with the prediction by all errors goes.
+    pub predictor: Option<PathBuf>,
     /// Whether sign, order, sense, side and unit of the readings are tried.
     pub check_conventions: bool,
 }
@@ -82,6 +85,11 @@ impl Identified {
 }
 
 impl Identify {
+    /// The machine files that are written.
+    fn machines(&self) -> impl Iterator<Item = &Path> {
+        self.output.iter().chain(&self.predictor).map(PathBuf::as_path)
+    }
+
     /// The instrument of the table in place of its own.
     fn dropped<'a>(
         &'a self,
@@ -126,8 +134,15 @@ impl Question for Identify {
     }
 
     fn outputs(&self, _: Option<&Self::Input>) -> Vec<Output> {
-        let both = |output: &PathBuf| [output.clone(), covariance_path(output)];
-        self.output.iter().flat_map(both).map(|path| Output::file("-o", path)).collect()
+        let all = [("-o", &self.output), ("--predictor", &self.predictor)];
+        let both = |(argument, path): (&'static str, &Option<PathBuf>)| {
+            let path = path.clone()?;
+            // A folder that is missing is reported once.
+            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+            let beside = folder.is_none_or(Path::is_dir).then(|| covariance_path(&path));
+            Some([path].into_iter().chain(beside).map(|path| Output::file(argument, path)))
+        };
+        all.into_iter().filter_map(both).flatten().collect()
     }
 
     fn answer(
@@ -150,6 +165,14 @@ impl Question for Identify {
             Identified { campaign, options, records, found, conventions, files: Vec::new() };
         if let Some(output) = &self.output {
             identified.files = machine_files(&identified, output, problems)?;
+        }
+        if let Some(output) = &self.predictor {
+            judge(&identified.found, &Place::whole(&self.campaign.display().to_string()), problems);
+            if problems.has_errors() {
+                return None;
+            }
+            let files = predictor_files(&identified, output, problems)?;
+            identified.files.extend(files);
         }
         Some(identified)
     }
@@ -175,19 +198,46 @@ fn covariance_path(output: &Path) -> PathBuf {
     output.with_file_name(format!("{stem}-covariance.toml"))
 }
 
+/// The machine file with the prediction by all errors, its tables, and the covariance.
+fn predictor_files(
+    identified: &Identified,
+    output: &Path,
+    problems: &mut Diagnostics,
+) -> Option<Vec<NewFile>> {
+    let Identified { campaign, options, records, found, .. } = identified;
+    let path = covariance_path(output);
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let beside = Folder::of(&campaign.files, output);
+    let old = campaign.files.read_text(&campaign.machine_path).map_err(|e| e.to_string());
+    let made = old.and_then(|old| {
+        let read = (records, options.date.as_deref());
+        predictor_file((campaign, found), read, (&old, &name), &beside)
+    });
+    let PredictorFile { machine, covariance } =
+        made.map_err(|reason| refuse(output, &reason, problems)).ok()?;
+    let table =
+        |(name, text): (String, String)| NewFile::of("table", output.with_file_name(name), text);
+    let mut files: Vec<NewFile> = machine.tables.into_iter().map(table).collect();
+    files.push(NewFile::of("machine file", output, machine.text));
+    files.push(NewFile::of("covariance", path, covariance));
+    Some(files)
+}
+
+fn refuse(output: &Path, reason: &str, problems: &mut Diagnostics) {
+    let message = format!("the machine file cannot be edited: {reason}");
+    let hint = "put it beside the machine file if that names tables";
+    let place = Place::whole(&output.display().to_string());
+    problems.error("unwritable-file", place, message, hint);
+}
+
 /// The machine file with the errors found, and the tables that it names.
 fn machine_files(
     identified: &Identified,
     output: &Path,
     problems: &mut Diagnostics,
 ) -> Option<Vec<NewFile>> {
-    let refuse = |reason: String| {
-        let message = format!("the machine file cannot be edited: {reason}");
-        let hint = "put it beside the machine file if that names tables";
-        let place = Place::whole(&output.display().to_string());
-        problems.error("unwritable-file", place, message, hint);
-    };
-    let made = identified.machine_file(output).map_err(refuse).ok()?;
+    let made = identified.machine_file(output);
+    let made = made.map_err(|reason| refuse(output, &reason, problems)).ok()?;
     let table =
         |(name, text): (String, String)| NewFile::of("table", output.with_file_name(name), text);
     let mut files: Vec<NewFile> = made.tables.into_iter().map(table).collect();

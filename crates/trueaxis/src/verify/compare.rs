@@ -392,36 +392,33 @@ impl Fitted {
         let width = e + n;
         let mut rows = vec![0.0; 3 * width];
         let quantities = machine.uncertain_quantities();
+        let q = quantities.len();
         let slopes = |row: usize, rows: &mut [f64]| {
             let channels = design.slopes(readings, row, rows);
-            let u = machine.uncertainties_at(&readings.commands[row], &quantities).of_errors();
-            for slopes in rows.chunks_exact_mut(width.max(1)).take(channels) {
-                for (slope, index) in slopes.iter_mut().zip(&errors) {
-                    *slope *= u.get(*index);
-                }
-            }
-            (channels, self.instruments[readings.instruments[row] as usize].noise)
+            let u = machine.uncertainties_at(&readings.commands[row], &quantities);
+            let noise = self.instruments[readings.instruments[row] as usize].noise;
+            (channels, u.of_quantities(q, &errors), noise)
         };
-        // JᵀW S: the effect of each error on the fitted set-up.
-        let mut pull = DMatrix::zeros(n, e);
+        // JᵀW S: the effect of each uncertain quantity on the fitted set-up.
+        let mut pull = DMatrix::zeros(n, q);
         for row in 0..readings.len() {
-            let (channels, noise) = slopes(row, &mut rows);
+            let (channels, u, noise) = slopes(row, &mut rows);
             for c in 0..channels {
                 let row = &rows[c * width..(c + 1) * width];
-                let s = DVector::from_column_slice(&row[..e]);
+                let s = &u * DVector::from_column_slice(&row[..e]);
                 let j = DVector::from_column_slice(&row[e..]);
                 pull.ger(noise[c].powi(-2), &j, &s, 1.0);
             }
         }
         let taken = &self.covariance * pull;
         let mut found = vec![[0.0; 3]; readings.len()];
-        // GᵀG of the shares g = s/u of the errors, and Σ|g|⁴: Σ ρ² over all pairs of numbers.
-        let (mut gram, mut own, mut count) = (DMatrix::<f64>::zeros(e, e), 0.0, 0.0);
+        // GᵀG of the shares g = s/u of the quantities, and Σ|g|⁴: Σ ρ² over all pairs of numbers.
+        let (mut gram, mut own, mut count) = (DMatrix::<f64>::zeros(q, q), 0.0, 0.0);
         for (row, found) in found.iter_mut().enumerate() {
-            let (channels, noise) = slopes(row, &mut rows);
+            let (channels, u, noise) = slopes(row, &mut rows);
             for c in 0..channels {
                 let row = &rows[c * width..(c + 1) * width];
-                let s = DVector::from_column_slice(&row[..e]);
+                let s = &u * DVector::from_column_slice(&row[..e]);
                 let j = DVector::from_column_slice(&row[e..]);
                 let fitted = j.dot(&(&self.covariance * &j));
                 let left = s - taken.tr_mul(&j);

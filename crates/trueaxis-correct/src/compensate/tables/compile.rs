@@ -115,7 +115,8 @@ fn joints_of(mut chain: Machine, control: &dyn Control) -> (Option<Joints>, Vec<
     for (index, name) in chain.stated_errors() {
         let stated = chain.bodies()[index.body].stated(index.kind, index.component);
         let size = stated.map_or(0.0, |s| s.at(0.0, 0.0).map_or(0.0, f64::abs));
-        if stated.is_some_and(|s| size <= s.u_at(0.0)) {
+        let together = chain.joint().is_some_and(|joint| joint.has(index));
+        if !together && stated.is_some_and(|s| size <= s.u_at(0.0)) {
             uncertain.extend((size > 0.0).then_some((name, size)));
             chain = chain.with_error(index, None);
         }
@@ -250,7 +251,8 @@ fn candidate(
         let of = |side| Ok::<_, CommandFault>(lever.functions(input, q, side)?[output]);
         Ok([counts(machine, output, of(1.0)?), counts(machine, output, of(-1.0)?)])
     };
-    let (mut largest, mut certain) = (0.0_f64, false);
+    // Of errors that are known together the u of one function says nothing.
+    let (mut largest, mut certain) = (0.0_f64, machine.joint().is_some());
     for i in 0..=GLANCES {
         let at = from + ((to - from) as i128 * i as i128 / GLANCES as i128) as i64;
         let size = function(at)?.map(f64::abs).into_iter().fold(0.0, f64::max) * count_out;

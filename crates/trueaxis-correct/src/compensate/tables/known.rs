@@ -170,7 +170,8 @@ fn function(
     };
     // Such a chain has one value for both directions.
     let function = |at: i64| Ok([value(at)?; 2]);
-    let (mut largest, mut certain) = (0.0_f64, false);
+    // Of errors that are known together the u of one says nothing.
+    let (mut largest, mut certain) = (0.0_f64, machine.joint().is_some());
     for i in 0..=GLANCES {
         let at = ends.0 + ((ends.1 - ends.0) as i128 * i as i128 / GLANCES as i128) as i64;
         let size = value(at)?.abs() * count;

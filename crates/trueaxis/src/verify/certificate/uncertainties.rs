@@ -77,6 +77,11 @@ impl UncertaintyFactors {
         for (i, (index, _)) in machine.stated_errors().iter().enumerate() {
             known.is_fitted[i] = terms.iter().any(|t| t.index == *index);
         }
+        if machine.joint().is_some_and(|joint| terms.iter().any(|t| joint.has(t.index))) {
+            let names = machine.joint().map_or(&[][..], |joint| joint.names());
+            let both = known.quantities.iter().zip(&mut known.is_fitted);
+            both.for_each(|(quantity, is_fitted)| *is_fitted |= names.contains(quantity));
+        }
         known.terms = terms.to_vec();
         known.root = root(&covariance.view((0, 0), (terms.len(), terms.len())).into_owned());
         known
