@@ -26,6 +26,9 @@ $trueaxis identify examples/05_identify/probe-ball-two-feeds.toml --format json
 # Two cones about a ball on a table that warms up: the rest drifts with time, exit status 1.
 $trueaxis identify examples/05_identify/cone-path.toml || test $? -eq 1
 $trueaxis plan examples/05_identify/cone-path.toml
+# A drift that is listed: its rate with U, and errors that do not suffer from it.
+$trueaxis identify examples/05_identify/drift.toml -o "${TMPDIR:-/tmp}/drift-machine.toml"
+$trueaxis plan examples/05_identify/drift.toml
 # Centres of one ball on a head-head router, errors of X, Y, Z not listed: the rest follows them, exit status 1.
 $trueaxis identify examples/05_identify/head-head.toml --report "${TMPDIR:-/tmp}/head-head.html" || test $? -eq 1
 $trueaxis identify examples/05_identify/head-head.toml --format json || test $? -eq 1

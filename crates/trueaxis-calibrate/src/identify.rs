@@ -6,6 +6,7 @@
 //!   readings to a verdict; what is unknown and how readings follow it stands in [`trueaxis_measure::unknowns`].
 
 pub mod adequacy;
+mod another_machine;
 mod assumptions;
 pub mod checks;
 pub mod conflict;
@@ -18,6 +19,7 @@ mod gross;
 pub mod influence;
 mod log_words;
 pub mod machine_file;
+mod mixed_signs;
 pub mod predictor;
 pub mod predictor_file;
 pub mod probe;

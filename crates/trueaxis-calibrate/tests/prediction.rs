@@ -32,6 +32,7 @@ fn example() -> (Campaign, Readings) {
     let mut problems = Diagnostics::new();
     let read = read_campaign(&disk(), &path, |root, _| {
         root.get("fit");
+        Some(())
     });
     let campaign = problems.keep(read).expect("a campaign").0;
     let records = read_records(&campaign, &mut problems).expect("readings");

@@ -93,6 +93,7 @@ fn probe(machine: &Machine) -> Instrument {
         material: None,
         reads: Default::default(),
         assumed: Default::default(),
+        drift: Default::default(),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Instruments: where they stand, what they read.
 
+pub mod drift;
 pub mod instrument;
 mod kind;
 pub mod material;

@@ -7,14 +7,17 @@
 
 pub mod calibration;
 mod campaign;
+mod drift;
 mod material;
 mod motion;
 pub mod path;
 pub mod prior;
 mod servo;
 pub mod stages;
+mod tables;
 pub mod virtual_campaign;
 
 pub use crate::instruments::{Instrument, Kind, Motion, Reading, Readings, instrument};
 pub use campaign::{Campaign, read_campaign, usual_setup};
 pub use motion::fill_motion;
+pub use tables::read_table;

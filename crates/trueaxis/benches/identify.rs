@@ -65,6 +65,7 @@ fn design() -> Design {
         material: None,
         reads: Default::default(),
         assumed: Default::default(),
+        drift: Default::default(),
     };
     let design = Design::new(&machine, terms, vec![instrument]);
     assert_eq!(design.unknowns(), 43);

@@ -81,6 +81,7 @@ fn tracker(machine: &Machine, below_mm: f64) -> Instrument {
         material: None,
         reads: Default::default(),
         assumed: Default::default(),
+        drift: Default::default(),
     }
 }
 

@@ -41,6 +41,7 @@ fn probe(machine: &Machine, kind: Kind) -> Instrument {
         material: None,
         reads: Default::default(),
         assumed: Default::default(),
+        drift: Default::default(),
     }
 }
 

@@ -127,6 +127,7 @@ fn instrument(machine: &Machine, kind: Kind) -> Instrument {
         material: Option::None,
         reads: Default::default(),
         assumed: Default::default(),
+        drift: Default::default(),
     }
 }
 

@@ -47,6 +47,7 @@ fn instrument(kind: Kind, machine: &Machine) -> Instrument {
         material: None,
         reads: Default::default(),
         assumed: Default::default(),
+        drift: Default::default(),
     }
 }
 

@@ -164,6 +164,11 @@ pub fn adequacy(task: Task<'_>) -> Result<Adequacy, FitError> {
     let mut explanations = rest.as_ref().map_or(Vec::new(), |rest| explanations(rest, ranges));
     if !lack.is_found() {
         explanations.truncate(1);
+        let nothing = explanations.iter().all(|e| e.times.iter().all(|t| *t == 0.0));
+        let wanted = unlisted.wanted.filter(|_| nothing);
+        if let Some((rest, group)) = rest.as_ref().zip(wanted) {
+            explanations = vec![only(rest, ranges, group)];
+        }
     }
     if explanations.is_empty() {
         explanations.push(Sizes::none(ranges.len()));
@@ -392,6 +397,14 @@ pub(super) fn explanations(rest: &Rest, ranges: &[Range<usize>]) -> Vec<Sizes> {
         true => vec![both, as_stated, noise],
         false => vec![as_stated, both, noise],
     }
+}
+
+/// One group with the size that the readings show of it, and nothing else.
+fn only(rest: &Rest, ranges: &[Range<usize>], group: usize) -> Sizes {
+    let alone = rest.sizes(std::slice::from_ref(&ranges[group]), false);
+    let mut times = vec![0.0; ranges.len()];
+    times[group] = alone.times.first().copied().unwrap_or(0.0);
+    Sizes { times, ..alone }
 }
 
 /// Each kind alone, the most evident first.

@@ -25,15 +25,26 @@ const FITS: f64 = 5.0;
 /// Warns of what was assumed, before anything is fitted.
 pub(super) fn check_assumed(design: &Design, campaign: &Place, problems: &mut Diagnostics) {
     for instrument in design.instruments.iter().filter(|i| i.assumed.reads) {
-        if instrument.kind != Kind::ProbeBall && instrument.kind != Kind::BallCentre {
-            continue;
-        }
+        let (taken, hint) = match instrument.kind {
+            Kind::ProbeBall | Kind::BallCentre => (
+                "\"ball\": where the ball was seen (ball − socket)",
+                "reads = \"ball\", or \"tool\" for the opposite: where the tool stood against the ball. The wrong one \
+                 turns the sign of every error",
+            ),
+            Kind::LaserLine | Kind::LaserAngle | Kind::Artefact | Kind::CutPiece => (
+                "\"deviation\": true − commanded",
+                "reads = \"deviation\", or \"correction\" for the opposite: what must be added to the command. The wrong \
+                 one turns the sign of every error",
+            ),
+            // A length has no sign, and neither has a place where a probe triggered.
+            Kind::BallBar | Kind::LengthTracker | Kind::TouchProbeBall | Kind::TouchProbeFace => {
+                continue;
+            }
+        };
         let message = format!(
-            "{}: which way its numbers count is not stated; taken is \"ball\": where the ball was seen (ball − socket)",
+            "{}: which way its numbers count is not stated; taken is {taken}",
             instrument.name
         );
-        let hint = "reads = \"ball\", or \"tool\" for the opposite: where the tool stood against the ball. The wrong one \
-                    turns the sign of every error";
         problems.warn("reads-not-stated", campaign.clone(), message, hint);
     }
 }
@@ -200,10 +211,13 @@ fn tell_closure(found: &Identification, records: &Records, problems: &mut Diagno
         if start == i || later <= 0.0 || instrument.kind.triggers() {
             continue;
         }
+        // A drift that is listed explains what changed.
+        let left = |i: usize, c: usize| match instrument.has_rate() {
+            true => found.fit.residuals[i][c],
+            false => readings.values[i][c],
+        };
         let off = (0..instrument.sight.channels())
-            .map(|c| {
-                (readings.values[i][c] - readings.values[start][c]).abs() / instrument.noise[c]
-            })
+            .map(|c| (left(i, c) - left(start, c)).abs() / instrument.noise[c])
             .fold(0.0, f64::max);
         if worst.is_none_or(|w| off > w.0) {
             worst = Some((off, start, i));

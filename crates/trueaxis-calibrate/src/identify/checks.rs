@@ -1,5 +1,6 @@
 //! What is wrong with readings before anything is fitted to them.
 
+use super::another_machine::check_poses;
 use super::records::Records;
 use std::collections::BTreeMap;
 use trueaxis_geometry::Vec3;
@@ -76,6 +77,7 @@ pub fn check_records(
         let hint = "errors show where the machine moves: measure at many poses of all axes";
         problems.error("one-place", campaign.clone(), message, hint);
     }
+    check_poses(design, records, problems);
     check_size(design, records, problems);
     check_lost_rows(records, problems);
     check_balls_on_axes(design, readings, campaign, problems);

@@ -6,6 +6,7 @@
 //! errors would only change theirs.
 
 use super::checks::deviations;
+use super::mixed_signs::mixed_rows;
 use nalgebra::DVector;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -20,6 +21,8 @@ use trueaxis_measure::unknowns::fit::Observability;
 const SAMPLE: usize = 600;
 /// "Far better": the residual falls to less than this share.
 const FAR_BETTER: f64 = 0.4;
+/// How a change ends that turns part of the rows.
+const MIXED: &str = "rows with the opposite sign";
 /// Below this, in units of the noise, there is nothing to explain.
 const FITS: f64 = 3.0;
 
@@ -61,6 +64,9 @@ pub struct ConventionCheck {
     pub better: Vec<Convention>,
     /// What cannot be checked, or what to look at.
     pub remarks: Vec<String>,
+    /// Rows that fit the others with the opposite sign, if part of them does.
+    #[serde(skip)]
+    pub mixed: Vec<usize>,
 }
 
 /// What is changed of one instrument's readings.
@@ -84,6 +90,7 @@ enum Change {
 
 /// Tries the conventions on readings.
 pub fn check_conventions(design: &Design, readings: &Readings) -> ConventionCheck {
+    let design = &design.clone().from_first_readings(readings);
     let step = readings.len().div_ceil(SAMPLE).max(1);
     let sample = readings.filtered(|i| i % step == 0);
     let deviations = deviations(design, &sample);
@@ -101,6 +108,20 @@ pub fn check_conventions(design: &Design, readings: &Readings) -> ConventionChec
             }
         }
     }
+    let mut mixed: Vec<usize> = Vec::new();
+    for k in 0..design.instruments.len() {
+        tried += 1;
+        let rows = mixed_rows(design, &sample, &deviations, k);
+        let mut values = deviations.clone();
+        rows.iter().for_each(|i| values[*i].iter_mut().for_each(|v| *v = -*v));
+        let after = misfit(design, &sample, &deviations, &values);
+        if !rows.is_empty() && residual > FITS && after < FAR_BETTER * residual && after < FITS {
+            let own = sample.instruments.iter().filter(|i| **i as usize == k).count();
+            let change = format!("{}: {} of {own} {MIXED}", design.instruments[k].name, rows.len());
+            found.push(Convention { change, before: residual, after, changes: 2 });
+            mixed.extend(rows.iter().map(|i| i * step));
+        }
+    }
     // Of changes that fit alike the smallest one.
     found.sort_by(|a, b| {
         let rough = |c: &Convention| (4.0 * c.after.max(1e-3).ln()).round() as i64;
@@ -115,7 +136,10 @@ pub fn check_conventions(design: &Design, readings: &Readings) -> ConventionChec
                 .to_owned(),
         );
     }
-    ConventionCheck { tried, residual, better: found, remarks }
+    // Another change that fits as well makes all rows fit: then their signs are not mixed.
+    let is_best = found.first().is_some_and(|c| c.change.ends_with(MIXED));
+    mixed.retain(|_| is_best);
+    ConventionCheck { tried, residual, better: found, remarks, mixed }
 }
 
 /// A residual far from the noise by a factor that a wrong unit makes.

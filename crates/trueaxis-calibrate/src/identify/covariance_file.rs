@@ -9,8 +9,10 @@ use super::records::Records;
 use nalgebra::{DMatrix, DVector};
 use std::fmt::Write as _;
 use trueaxis_measure::instruments::Instrument;
+use trueaxis_measure::instruments::instrument::SetupError;
 use trueaxis_measure::measure::Campaign;
 use trueaxis_measure::measure::prior::{nominal_mark, set_up};
+use trueaxis_measure::unknowns::design::Unknown;
 
 /// A share of a combination that is rounding, against its greatest.
 const NOTHING: f64 = 1e-7;
@@ -26,7 +28,7 @@ pub fn covariance_file(
     date: Option<&str>,
 ) -> String {
     let mut text = head(campaign, records, (&found.design.instruments, date));
-    let rows = rows(found);
+    let rows = lasting(found, rows(found));
     let values = &rows * DVector::from_column_slice(&found.fit.values);
     let covariance = &rows * &found.fit.covariance * rows.transpose();
     let names = found.design.names();
@@ -75,6 +77,22 @@ pub(super) fn head(
         let _ = writeln!(text, "\n[[readings]]\nfile = {file:?}\nmark = \"{mark}\"");
     }
     text
+}
+
+/// Without what ends with the campaign: drifts, and the places that drifted. What remains of a normal distribution
+/// needs nothing else than to leave their rows out.
+fn lasting(found: &Identification, rows: DMatrix<f64>) -> DMatrix<f64> {
+    let ends = |k: &usize| match found.design.unknown(*k) {
+        Some(Unknown::Setup(instrument, unknown)) => {
+            let moves = matches!(unknown.error, SetupError::ReferencePoint(_));
+            unknown.error.is_rate() || moves && instrument.has_rate()
+        }
+        _ => false,
+    };
+    let ending: Vec<usize> = (0..rows.ncols()).filter(ends).collect();
+    let lasts = |i: &usize| ending.iter().all(|k| rows[(*i, *k)] == 0.0);
+    let kept: Vec<usize> = (0..rows.nrows()).filter(lasts).collect();
+    rows.select_rows(&kept)
 }
 
 /// What is known: one row for each unknown that is seen alone, then combinations with few members.

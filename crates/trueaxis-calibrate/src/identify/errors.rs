@@ -6,6 +6,7 @@
 //! ```
 
 use super::adequacy::{Adequacy, Task, adequacy};
+use super::another_machine::tell_mixed;
 use super::assumptions::{check_assumed, check_result, check_times};
 use super::checks::{check_records, tell_fault};
 use super::conflict::check_conflicts;
@@ -49,9 +50,11 @@ pub struct Found {
     pub is_time: bool,
     /// Whether it is a share of a length: a scale, the expansion of a material.
     pub is_share: bool,
+    /// Whether it is a rate by the hour: the drift of a set-up.
+    pub is_rate: bool,
     /// Whether it belongs to a set-up and not to the machine.
     pub is_setup: bool,
-    /// Value and standard uncertainty, mm, rad or 1; none if it is not observable.
+    /// Value and standard uncertainty, mm, rad, 1 or by the hour; none if it is not observable.
     pub value: Option<(f64, f64)>,
     /// Effective degrees of freedom of the uncertainty; `None`: infinitely many. Unit: 1.
     pub degrees_of_freedom: Option<f64>,
@@ -234,7 +237,7 @@ pub fn identify(
 ) -> Option<Identification> {
     let place = Place::whole(&campaign.path.display().to_string());
     let readings = &records.readings;
-    let whole = campaign.design();
+    let whole = campaign.design().from_first_readings(readings);
     if readings.is_empty() || whole.unknowns() == 0 {
         let message = match readings.is_empty() {
             true => "there are no readings",
@@ -268,6 +271,8 @@ pub fn identify(
                 sequence
             });
             check_result(&found, records, &place, problems);
+            let mixed = found.conventions.as_ref().map_or(&[][..], |check| &check.mixed);
+            tell_mixed(mixed, records, problems);
             Some(found)
         }
         Err(fault) => {
@@ -380,7 +385,7 @@ impl<'a> Work<'a> {
     ) -> Result<Identification, FitError> {
         let (design, readings) = (&self.design, self.readings);
         let residuals = self.residuals();
-        let (floor, repeats) = repeatability(design, readings, &self.weights);
+        let (floor, repeats) = repeatability(design, readings, &self.weights, &self.fit.residuals);
         let score = Score::of(design, readings, &residuals, floor);
         let adequacy = adequacy(Task {
             design,
@@ -498,6 +503,7 @@ fn found(design: &Design, determined: &Determined, freedom: &[Option<f64>]) -> V
                 is_angle: unknown.is_angle(),
                 is_time: unknown.is_time(),
                 is_share: unknown.is_share(),
+                is_rate: unknown.is_rate(),
                 is_setup: matches!(unknown, Unknown::Setup(..)),
                 value: determined.is_determined[k].then_some(value),
                 degrees_of_freedom: freedom.get(k).copied().flatten(),

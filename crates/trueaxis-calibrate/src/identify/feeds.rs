@@ -103,7 +103,9 @@ pub(super) fn check_feeds(design: &Design, records: &Records, problems: &mut Dia
              repeats: two feeds in one file?",
             readings.lines[first]
         );
-        problems.error("mixed-feeds", records.place(row), message, hint);
+        let hint =
+            format!("{hint}; or, if it drifted in between, unknown = {{ drift = \"free\", … }}");
+        problems.error("mixed-feeds", records.place(row), message, &hint);
     }
 }
 
@@ -115,7 +117,9 @@ fn mixed(design: &Design, readings: &Readings) -> Option<(usize, f64, usize)> {
     for i in 0..readings.len() {
         let of = readings.instruments[i];
         let instrument = &design.instruments[of as usize];
-        if instrument.kind.triggers() || readings.motions[i].feed_mm_per_s.is_some() {
+        let is_stated = readings.motions[i].feed_mm_per_s.is_some();
+        // What drifts does not come back to what it was.
+        if instrument.kind.triggers() || is_stated || instrument.needs_time() {
             continue;
         }
         let command = readings.commands[i].map(|q| (q * 1e6).round() as i64);

@@ -4,7 +4,7 @@ use super::stage_tables::{Calibrated, read_calibrations};
 use std::collections::BTreeMap;
 use trueaxis_input::{CsvTable, Diagnostics, Item, Place, Section};
 use trueaxis_measure::measure::prior::mark;
-use trueaxis_measure::measure::{Campaign, Readings, fill_motion};
+use trueaxis_measure::measure::{Campaign, Readings, read_table};
 use trueaxis_measure::unknowns::fit::{Model, Rule};
 
 /// Readings, and where each stands.
@@ -178,9 +178,8 @@ impl Records {
         table: &CsvTable,
         problems: &mut Diagnostics,
     ) -> Option<()> {
-        let (instrument, number) = (&campaign.instruments[index], u32::try_from(index).ok()?);
-        let mut read = Readings::parse(table, &campaign.machine, instrument, number, problems)?;
-        fill_motion(&mut read, &campaign.machine, &campaign.instruments);
+        let of = (&campaign.instruments[..], index);
+        let read = read_table(table, &campaign.machine, of, problems)?;
         self.tables.push((self.readings.len(), table.file.clone()));
         self.readings.append(&read);
         Some(())

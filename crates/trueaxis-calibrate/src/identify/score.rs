@@ -106,11 +106,13 @@ impl Score {
     }
 }
 
-/// The scatter of readings that were repeated in the same place, if ten or more were, and all of it as squares.
+/// The scatter of readings that were repeated in the same place, if ten or more were, and all of it as squares. Of what
+/// drifted in between only the residual counts: the rest of a reading is the same in the same place.
 pub fn repeatability(
     design: &Design,
     readings: &Readings,
     weights: &[f64],
+    residuals: &[[f64; 3]],
 ) -> (Option<Rms>, Option<Scatter>) {
     let mut places: BTreeMap<_, Vec<usize>> = BTreeMap::new();
     for i in 0..readings.len() {
@@ -132,10 +134,11 @@ pub fn repeatability(
         let instrument = &design.instruments[readings.instruments[rows[0]] as usize];
         let kind = if instrument.sight.is_angle() { &mut angle } else { &mut length };
         let freedom = (rows.len() - 1) as f64 / rows.len() as f64;
+        let values = if instrument.has_rate() { residuals } else { &readings.values[..] };
         for c in 0..instrument.sight.channels() {
-            let mean = rows.iter().map(|i| readings.values[*i][c]).sum::<f64>() / rows.len() as f64;
+            let mean = rows.iter().map(|i| values[*i][c]).sum::<f64>() / rows.len() as f64;
             for i in rows {
-                let r = readings.values[*i][c] - mean;
+                let r = values[*i][c] - mean;
                 noise.add(r / instrument.noise[c], freedom);
                 kind.add(r, freedom);
             }

@@ -265,6 +265,10 @@ pub fn shown_unit(unknown: Option<Unknown<'_>>) -> (f64, &'static str) {
     match unknown {
         Some(u) if u.is_time() => (1e3, "ms"),
         Some(Unknown::Setup(_, s)) if s.error == SetupError::Scale => (1e6, "µm/m"),
+        Some(u) if u.is_rate() => match u.is_angle() {
+            true => (1e6, "µrad/h"),
+            false => (1e3, "µm/h"),
+        },
         Some(u) if u.is_angle() => (1e6, "µrad"),
         _ => (1e3, "µm"),
     }
@@ -372,6 +376,9 @@ fn tell_missing(
     let key = match unknown.error {
         SetupError::Zero(_) => format!("zero = {{ of = {:?}, … }}", instrument.name),
         SetupError::ReferencePoint(_) => format!("ball = {{ of = {:?}, … }}", instrument.name),
+        SetupError::Drift(_) => {
+            format!("values = {{ {:?} = \"0 ± 1 um/h\" }}", sequence.names[*first])
+        }
         _ => format!("values = {{ {:?} = \"0 ± 1 um\" }}", sequence.names[*first]),
     };
     let message = format!(

@@ -7,6 +7,7 @@ use trueaxis_geometry::Vec3;
 use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::errors::ErrorValues;
 use trueaxis_measure::measure::path::Path;
+use trueaxis_measure::measure::virtual_campaign::set_times;
 use trueaxis_measure::measure::{Campaign, Kind, Readings};
 use trueaxis_measure::unknowns::design::Design;
 use trueaxis_nc::Control;
@@ -68,6 +69,9 @@ pub fn planned(plan: Plan, chosen: Option<Chosen>, control: Control) -> PlanRepo
             dwell_s: 1.0,
             overrun: 0.0,
         });
+    }
+    if plan.campaign.instruments.iter().any(|i| i.has_rate()) {
+        set_times(&plan.campaign, &mut paths);
     }
     let mut stations = Readings::default();
     paths.iter().for_each(|path| stations.append(&path.stations));

@@ -270,6 +270,7 @@ fn further_instrument(
         material: None,
         reads: Default::default(),
         assumed: Default::default(),
+        drift: Default::default(),
     }
 }
 

@@ -36,7 +36,7 @@ const MOST_MAPPED: usize = 60;
 /// Correlations from here on are reported.
 const STRONG: f64 = 0.9;
 
-/// µm, µrad, ms or µm/m of mm, rad, s or 1.
+/// µm, µrad, ms or µm/m of mm, rad, s or 1; rates are by the hour.
 pub(super) fn shown(found: &Found, value: f64) -> f64 {
     if found.is_angle || found.is_share { value * 1e6 } else { value * 1e3 }
 }
@@ -44,6 +44,8 @@ pub(super) fn shown(found: &Found, value: f64) -> f64 {
 fn unit(found: &Found) -> &'static str {
     match (found.is_time, found.is_angle) {
         _ if found.is_share => "µm/m",
+        (_, true) if found.is_rate => "µrad/h",
+        _ if found.is_rate => "µm/h",
         (true, _) => "ms",
         (_, true) => "µrad",
         _ => "µm",

@@ -112,7 +112,7 @@ pub struct FoundEntry<'a> {
     /// Its name.
     pub name: &'a str,
     /// `value_um`, its standard uncertainty `u_um` and its expanded uncertainty `U_um` = k u (95.45 %); the same with
-    /// `urad`, `ms` (lag) or `um_per_m` (scale, material); null if not observable.
+    /// `urad`, `ms` (lag), `um_per_m` (scale, material), `um_per_h` or `urad_per_h` (drift); null if not observable.
     #[serde(flatten)]
     pub value: Keyed<Option<f64>>,
     /// The standard uncertainty again. Unit: that of the value.
@@ -362,6 +362,8 @@ impl<'a> From<&'a Found> for FoundEntry<'a> {
     fn from(found: &'a Found) -> Self {
         let names = match (found.is_time, found.is_angle) {
             _ if found.is_share => ["value_um_per_m", "u_um_per_m", "U_um_per_m"],
+            (_, true) if found.is_rate => ["value_urad_per_h", "u_urad_per_h", "U_urad_per_h"],
+            _ if found.is_rate => ["value_um_per_h", "u_um_per_h", "U_um_per_h"],
             (true, _) => ["value_ms", "u_ms", "U_ms"],
             (_, true) => ["value_urad", "u_urad", "U_urad"],
             _ => ["value_um", "u_um", "U_um"],

@@ -20,6 +20,8 @@ pub(super) fn shown_unit(design: &Design, expected: &Expected) -> (&'static str,
     use trueaxis_measure::unknowns::design::Unknown;
     match design.unknown(expected.unknown) {
         Some(Unknown::Setup(_, s)) if s.error.is_share() => ("µm/m", 1e6),
+        Some(Unknown::Setup(_, s)) if s.error.is_rate() && !expected.is_angle => ("µm/h", 1e3),
+        Some(Unknown::Setup(_, s)) if s.error.is_rate() => ("µrad/h", 1e6),
         _ if expected.is_angle => ("µrad", 1e6),
         _ => ("µm", 1e3),
     }

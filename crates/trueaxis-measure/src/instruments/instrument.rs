@@ -8,9 +8,10 @@
 //!     δr = f · v + m · ω         (v, ω) the twist of the error            docs/model.md eq. 104
 //! ```
 
+use super::drift::Drift;
 use super::material::MaterialCompensation;
-use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::Pose;
+use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Command;
 use trueaxis_machine::chain::Link;
@@ -62,12 +63,19 @@ pub enum SetupError {
     Scale,
     /// The material is longer by this share than its compensation assumes.
     Material,
+    /// The instrument drifts along (an angle: about) X, Y, Z of the machine against the tool, mm/h or rad/h.
+    Drift(usize),
 }
 
 impl SetupError {
     /// Whether it is a share of a length, a plain number.
     pub fn is_share(self) -> bool {
         matches!(self, Self::Scale | Self::Material)
+    }
+
+    /// Whether it grows with time: a rate by the hour.
+    pub fn is_rate(self) -> bool {
+        matches!(self, Self::Drift(_))
     }
 }
 
@@ -78,7 +86,7 @@ pub struct SetupUnknown {
     pub name: String,
     /// What it displaces.
     pub error: SetupError,
-    /// The standard uncertainty with which it is known to be 0; `None`: free. Unit: mm, rad or 1.
+    /// The standard uncertainty with which it is known to be 0; `None`: free. Unit: mm, rad, 1 or by the hour.
     pub prior_u: Option<f64>,
 }
 
@@ -138,6 +146,8 @@ pub struct Instrument {
     pub reads: Reads,
     /// What its section did not state.
     pub assumed: Assumed,
+    /// How it drifts while it reads.
+    pub drift: Drift,
 }
 
 /// The tool at a station as the reference sees it.
@@ -149,6 +159,8 @@ pub struct View {
     pub actual: Link,
     /// n, a unit vector in the frame of the reference.
     pub direction: Vec3,
+    /// How far a drift of 1 by the hour along each axis of the machine has gone, in the frame of the reference, h.
+    pub drifted: Mat3,
 }
 
 /// How a reading follows a small motion of the tool: force and moment on the twist.
@@ -175,10 +187,11 @@ struct Setup {
     zero: [f64; 3],
     scale: f64,
     material: f64,
+    drift_per_h: Vec3,
 }
 
 impl Instrument {
-    /// The tool at a command of a machine with these errors, as the instrument's reference sees it.
+    /// The tool at a command of a machine with these errors, as the instrument's reference sees it before it drifts.
     pub fn view(
         &self,
         machine: &Machine,
@@ -187,7 +200,8 @@ impl Instrument {
         direction: Vec3,
     ) -> View {
         let nominal = self.tool_seen(machine, command, &ErrorValues::default());
-        View { nominal, actual: self.tool_seen(machine, command, errors), direction }
+        let actual = self.tool_seen(machine, command, errors);
+        View { nominal, actual, direction, drifted: Mat3::zeros() }
     }
 
     /// reference_from_tool at a command of a machine with these errors.
@@ -243,7 +257,11 @@ impl Instrument {
         let seen_by_instrument = displaced_by(&setup.shift_and_turn).inverse() * view.actual;
         let p = seen_by_instrument.linear() * (self.tool_point_mm + setup.tool_point_mm)
             + seen_by_instrument.shift_mm();
-        let from_q = p - self.reference_point_mm;
+        let drifted = view.drifted * setup.drift_per_h;
+        let from_q = match self.sight.is_angle() {
+            true => p - self.reference_point_mm,
+            false => p - drifted - self.reference_point_mm,
+        };
         let mut reading = match self.sight {
             Sight::ProbeOffset => (seen_by_instrument.linear().transpose() * -from_q).into(),
             Sight::Place => from_q.into(),
@@ -254,7 +272,7 @@ impl Instrument {
                 // The axis times the sine of the angle: half of R − Rᵀ.
                 let [x, y, z] =
                     [(2, 1), (0, 2), (1, 0)].map(|(i, j)| 0.5 * (turn[(i, j)] - turn[(j, i)]));
-                [view.direction.dot(&Vec3::new(x, y, z)), 0.0, 0.0]
+                [view.direction.dot(&(Vec3::new(x, y, z) - drifted)), 0.0, 0.0]
             }
         };
         for (value, zero) in reading.iter_mut().zip(setup.zero).take(self.sight.channels()) {
@@ -317,6 +335,10 @@ impl Instrument {
                 self.counted(&nominal, &Setup::default())[channel]
             }
             SetupError::Material => -self.material_length(view),
+            SetupError::Drift(i) if self.sight == Sight::Turn => {
+                -wrench.moment.dot(&view.drifted.column(i))
+            }
+            SetupError::Drift(i) => -wrench.force.dot(&view.drifted.column(i)),
         }
     }
 
@@ -335,6 +357,7 @@ impl Instrument {
                 SetupError::Zero(i) => setup.zero[i] += self.zero_sign() * value,
                 SetupError::Scale => setup.scale += value,
                 SetupError::Material => setup.material += value,
+                SetupError::Drift(i) => setup.drift_per_h[i] += value,
             }
         }
         setup
@@ -343,7 +366,7 @@ impl Instrument {
 
 /// reference_from_instrument.
 fn displaced_by(six: &SixErrors) -> Link {
-    let turn = trueaxis_geometry::Mat3::identity() + six.rotation_minus_identity(Rotation::Exact);
+    let turn = Mat3::identity() + six.rotation_minus_identity(Rotation::Exact);
     Pose::new(turn, six.shift_mm())
 }
 
@@ -367,6 +390,7 @@ mod tests {
             material: None,
             reads: Default::default(),
             assumed: Default::default(),
+            drift: Default::default(),
         }
     }
 
@@ -375,7 +399,7 @@ mod tests {
         // The tool 100 mm above (10 0 0), tip 3 µm too far in X: the ball is 3 µm to the left.
         let nominal = Link::shift(Vec3::new(10.0, 0.0, 100.0));
         let actual = Link::shift(Vec3::new(10.003, 0.0, 100.0));
-        let view = View { nominal, actual, direction: Vec3::x() };
+        let view = View { nominal, actual, direction: Vec3::x(), drifted: Mat3::zeros() };
         let [x, y, z] = instrument(Sight::ProbeOffset).read(&view, &[]);
         assert!((x + 0.003).abs() < 1e-12 && y == 0.0 && z.abs() < 1e-12);
         assert!((instrument(Sight::Along).read(&view, &[])[0] - 0.003).abs() < 1e-12);
@@ -385,7 +409,7 @@ mod tests {
     #[test]
     fn a_longer_bar_reads_more_by_as_much() {
         let nominal = Link::shift(Vec3::new(160.0, 0.0, 100.0));
-        let view = View { nominal, actual: nominal, direction: Vec3::x() };
+        let view = View { nominal, actual: nominal, direction: Vec3::x(), drifted: Mat3::zeros() };
         let mut bar = instrument(Sight::Distance);
         bar.unknowns =
             vec![SetupUnknown { name: "length".into(), error: SetupError::Zero(0), prior_u: None }];

@@ -176,6 +176,7 @@ impl Kind {
             SetupError::Zero(_) => self.zero().to_owned(),
             SetupError::Scale => "scale".to_owned(),
             SetupError::Material => "material".to_owned(),
+            SetupError::Drift(i) => format!("drift_{}", axis(i)),
         }
     }
 }

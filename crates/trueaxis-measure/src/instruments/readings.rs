@@ -176,7 +176,7 @@ impl Readings {
                 direction,
                 value,
                 group,
-                time_s: columns.time.map_or(0.0, |c| c.values[row]),
+                time_s: columns.time_s(row),
                 motion: columns.motion(row),
                 line: u32::try_from(table.row_place(row).line).unwrap_or(u32::MAX),
             });
@@ -245,6 +245,11 @@ impl Readings {
 /// Of a centre that was found only the rotary axes are written: the linear ones follow from where it is.
 fn written(instrument: &Instrument, axis: &Axis) -> bool {
     instrument.kind != Kind::BallCentre || axis.kind == AxisKind::Rotary
+}
+
+/// The letters of axes by ISO 841.
+fn is_axis_letter(name: &str) -> bool {
+    name.len() == 1 && "XYZABCUVW".contains(name)
 }
 
 /// The channels of a row as they stand in a file.
@@ -394,7 +399,7 @@ struct Columns<'t> {
     channels: Vec<(usize, bool, Unit, &'t CsvColumn)>,
     normal: Option<[&'t CsvColumn; 3]>,
     group: Option<&'t CsvColumn>,
-    time: Option<&'t CsvColumn>,
+    time: Option<(Unit, &'t CsvColumn)>,
     feed: Option<&'t CsvColumn>,
 }
 
@@ -462,11 +467,13 @@ impl<'t> Columns<'t> {
         match column.name.as_str() {
             "n_x" | "n_y" | "n_z" => return,
             "group" => return self.group = Some(column),
-            "time_s" => return self.time = Some(column),
             FEED => return self.take_feed(column, problems),
             _ => {}
         }
         let (name, unit) = column.name.rsplit_once('_').unwrap_or((&column.name, ""));
+        if let ("time", Ok(unit)) = (name, Unit::find(unit, Dimension::Time)) {
+            return self.time = Some((unit, column));
+        }
         if let Some(index) = axis(name).filter(|_| unit == "approach") {
             return self.approaches.push((index, column));
         }
@@ -475,6 +482,12 @@ impl<'t> Columns<'t> {
         // A distance may also be given as its deviation.
         let channel = channel.or((absolute(instrument) && name == "deviation").then_some(0));
         let Some(channel) = channel.filter(|c| channels(instrument).contains(c)) else {
+            if is_axis_letter(&column.name) && column.values.iter().any(|v| *v != 0.0) {
+                let message = format!("the machine has no axis {}", column.name);
+                let hint =
+                    format!("readings of another machine? this one is {}", machine.chain_text());
+                return problems.error("unknown-axis", column.place.clone(), message, &hint);
+            }
             let hint = "known here: the axes, the channels of the instrument, group, time_s, \
                         feed_mm_per_min, n_x n_y n_z, X_approach";
             let message = format!("`{}` says nothing to a {}", column.name, instrument.kind.name());
@@ -522,6 +535,11 @@ impl<'t> Columns<'t> {
         Vec3::from_iterator(normal.iter().map(|c| c.values[row]))
             .try_normalize(0.0)
             .unwrap_or(usual)
+    }
+
+    /// When a row was read; 0 if it is not stated. Unit: s.
+    fn time_s(&self, row: usize) -> f64 {
+        self.time.map_or(0.0, |(unit, column)| unit.to_inner(column.values[row]))
     }
 
     /// Where the centre of a ball was found, mm.

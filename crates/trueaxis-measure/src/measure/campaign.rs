@@ -1,10 +1,12 @@
 //! The campaign file: on which machine, with which instruments, which unknowns.
 
+use super::drift::{StatedDrift, read_drift};
 use super::material::{material_unknown, read_material};
 use super::prior::read_prior_file;
 use super::servo::read_servo;
 use super::stages::{Stage, Stages, read_stages, warn_of_doubles};
-use super::{Kind, Readings, fill_motion};
+use super::{Kind, Readings, read_table};
+use crate::instruments::drift::{Drift, Walk};
 use crate::instruments::instrument::{Assumed, Instrument, Reads, SetupError, SetupUnknown};
 use crate::unknowns::design::Design;
 use crate::unknowns::minimal::minimal_location_errors;
@@ -64,17 +66,13 @@ impl Campaign {
     pub fn readings(&self, problems: &mut Diagnostics) -> Option<Readings> {
         let mut all = Readings::default();
         let mut sound = true;
-        for (index, (instrument, tables)) in self.instruments.iter().zip(&self.tables).enumerate() {
+        for (index, tables) in self.tables.iter().enumerate() {
             for path in tables {
                 let what = "a table of readings (CSV)";
                 let table = foreign::mapped_text(&self.files, path, what, problems)
                     .map(|text| CsvTable::parse(&path.display().to_string(), &text, problems));
-                let index = u32::try_from(index).unwrap_or(u32::MAX);
                 let read = table.and_then(|table| {
-                    let mut read =
-                        Readings::parse(&table, &self.machine, instrument, index, problems)?;
-                    fill_motion(&mut read, &self.machine, &self.instruments);
-                    Some(read)
+                    read_table(&table, &self.machine, (&self.instruments, index), problems)
                 });
                 match read {
                     Some(read) => all.append(&read),
@@ -325,9 +323,12 @@ fn read_instrument(
     }
     let reference = section.get("stands_on").and_then(|i| read_reference(&i));
     let material = read_material(section, kind, machine, conditions);
-    let mut unknowns = match section.get("unknown") {
-        None => usual_setup(kind),
-        Some(item) => item.section(&section.path("unknown"), |s| read_setup(s, kind))?,
+    let towards = direction.unwrap_or(Vec3::x());
+    let (mut unknowns, walk) = match section.get("unknown") {
+        None => (usual_setup(kind), Walk::default()),
+        Some(item) => {
+            item.section(&section.path("unknown"), |s| read_unknowns(s, kind, towards))?
+        }
     };
     let material = material?;
     unknowns.extend(material.as_ref().and_then(material_unknown));
@@ -344,13 +345,14 @@ fn read_instrument(
             reference: reference.unwrap_or_default(),
             tool_point_mm,
             reference_point_mm,
-            direction: direction.unwrap_or(Vec3::x()),
+            direction: towards,
             length_mm,
             noise: noise?,
             unknowns,
             material,
             reads: reads.flatten().unwrap_or_default(),
             assumed,
+            drift: Drift { walk, from_s: 0.0 },
         },
         tables,
     ))
@@ -453,13 +455,23 @@ pub fn usual_setup(kind: Kind) -> Vec<SetupUnknown> {
     kind.usual_unknowns().into_iter().map(free).collect()
 }
 
+/// `unknown` of an instrument; where nothing but a drift is stated the usual ones remain.
+fn read_unknowns(section: &Section<'_>, kind: Kind, direction: Vec3) -> (Vec<SetupUnknown>, Walk) {
+    let drift = section.get("drift").map(|i| read_drift(&i, kind, direction));
+    let alone = drift.is_some() && section.entries().iter().all(|(key, ..)| *key == "drift");
+    let mut unknowns = if alone { usual_setup(kind) } else { read_setup(section, kind) };
+    let StatedDrift { rates, walk } = drift.unwrap_or_default();
+    unknowns.extend(rates);
+    (unknowns, walk)
+}
+
 /// `unknown = { ball = "free", socket = "20 um", scale = "0.5 um/m" }`: free, or the standard
 /// uncertainty with which it is known.
 fn read_setup(section: &Section<'_>, kind: Kind) -> Vec<SetupUnknown> {
     let three = [0, 1, 2];
     let turn = format!("{}_turn", kind.reference_point());
     let mut unknowns = Vec::new();
-    for (key, _, item) in section.entries() {
+    for (key, _, item) in section.entries().into_iter().filter(|(key, ..)| *key != "drift") {
         let (errors, dimension): (Vec<SetupError>, _) = if key == kind.tool_point() {
             (three.map(SetupError::ToolPoint).to_vec(), Dimension::Length)
         } else if key == kind.reference_point() {
@@ -475,7 +487,7 @@ fn read_setup(section: &Section<'_>, kind: Kind) -> Vec<SetupUnknown> {
         } else {
             let message = format!("`{key}` is nothing of the set-up of a {}", kind.name());
             let hint = format!(
-                "{}, {}, {turn}, {}, scale",
+                "{}, {}, {turn}, {}, scale, drift",
                 kind.tool_point(),
                 kind.reference_point(),
                 kind.zero()

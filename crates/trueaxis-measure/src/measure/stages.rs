@@ -314,6 +314,8 @@ fn read_value(item: &Item<'_>, key: &str, design: &Design) -> Option<StatedValue
     let plain = matches!(unknown, Unknown::Setup(_, s) if s.error == SetupError::Scale);
     // A scale is written like a small angle: "0.5 um/m".
     let (dimension, fixed) = match (unknown.is_time(), unknown.is_angle() || plain) {
+        (_, true) if unknown.is_rate() => (Dimension::AngularVelocity, FIXED_U_ANGLE / 3600.0),
+        _ if unknown.is_rate() => (Dimension::Velocity, FIXED_U / 3600.0),
         (true, _) => (Dimension::Time, FIXED_U),
         (_, true) => (Dimension::Angle, FIXED_U_ANGLE),
         _ => (Dimension::Length, FIXED_U),
@@ -324,7 +326,10 @@ fn read_value(item: &Item<'_>, key: &str, design: &Design) -> Option<StatedValue
         let message = format!("{key} has no uncertainty: later stages take it as exact");
         item.warn("fixed-value", message, "such as \"12 ± 0.5 um\"");
     }
-    Some(StatedValue { name: key.to_owned(), value: read.value, u: u.unwrap_or(fixed) })
+    // Drifts are by the hour.
+    let by = if unknown.is_rate() { 3600.0 } else { 1.0 };
+    let (value, u) = (read.value * by, u.unwrap_or(fixed) * by);
+    Some(StatedValue { name: key.to_owned(), value, u })
 }
 
 fn check_names(root: &Section<'_>, stages: &[Stage]) {

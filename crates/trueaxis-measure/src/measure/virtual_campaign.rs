@@ -20,7 +20,7 @@ mod stage_tables;
 mod summary;
 
 pub use file::read_virtual;
-pub use follow::{Stand, move_time_s};
+pub use follow::{Stand, move_time_s, set_times};
 pub use stage_tables::stage_tables;
 pub use summary::{ChannelSummary, Summary, shown_unit, summarise};
 
@@ -370,7 +370,8 @@ fn read_one(
         &row.command,
         &ErrorValues::default(),
     );
-    let view = View { nominal, actual, direction: row.direction };
+    let drifted = instrument.drifted(&campaign.machine, &row.command, row.time_s);
+    let view = View { nominal, actual, direction: row.direction, drifted };
     let read = instrument.read(&view, tool.setup);
     let against = match instrument.sight {
         crate::instruments::instrument::Sight::Distance => [0.0; 3],

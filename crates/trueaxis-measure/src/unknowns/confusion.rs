@@ -34,7 +34,7 @@ impl Confusion {
             let first_is_angle = self.members.first().and_then(|(k, _)| design.unknown(*k));
             let unit = match (first_is_angle.is_some_and(|u| u.is_angle()), unknown.is_angle()) {
                 // Factors of a time are in its own unit of mm, rad and s.
-                _ if unknown.is_time() || first_is_angle.is_some_and(|u| u.is_time()) => "",
+                _ if by_time(&unknown) || first_is_angle.is_some_and(|u| by_time(&u)) => "",
                 (true, false) => " mm/rad",
                 (false, true) => " rad/mm",
                 _ => "",
@@ -70,6 +70,11 @@ impl Confusion {
     }
 }
 
+/// Whether its unit contains a time.
+fn by_time(unknown: &Unknown<'_>) -> bool {
+    unknown.is_time() || unknown.is_rate()
+}
+
 /// Why a reading depends on something not at all.
 const NOT_MOVED: &str = "no pose moves what it acts on";
 
@@ -84,6 +89,8 @@ fn amounts(unknowns: &[(Unknown<'_>, f64)]) -> String {
         match (plain, unknown.is_angle()) {
             _ if unknown.is_time() => (share * 1e6, "µs"),
             (true, _) => (share * 1e6, "µm/m"),
+            (_, true) if unknown.is_rate() => (share * 1e6, "µrad/h"),
+            _ if unknown.is_rate() => (share * 1e3, "µm/h"),
             (_, true) => (share * 1e6, "µrad"),
             _ => (share * 1e3, "µm"),
         }
@@ -127,6 +134,7 @@ fn why(unknowns: &[(Unknown<'_>, f64)]) -> String {
                 }
                 SetupError::Scale => format!("the scale of {}", instrument.name),
                 SetupError::Material => format!("the material of {}", instrument.name),
+                SetupError::Drift(_) => format!("the drift of the {point}"),
             };
             let what = what.replace('_', " ");
             format!("{what} is not known better than by these readings themselves")

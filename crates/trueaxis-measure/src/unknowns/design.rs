@@ -73,6 +73,11 @@ impl Unknown<'_> {
         matches!(self, Self::Setup(_, unknown) if unknown.error.is_share())
     }
 
+    /// Whether it is a rate by the hour: the drift of a set-up.
+    pub fn is_rate(&self) -> bool {
+        matches!(self, Self::Setup(_, unknown) if unknown.error.is_rate())
+    }
+
     /// Whether it is an angle (rad); the others are lengths (mm), times (s) or plain numbers.
     pub fn is_angle(&self) -> bool {
         use crate::instruments::instrument::SetupError;
@@ -81,7 +86,7 @@ impl Unknown<'_> {
             Self::Term(term) => term.error.component.is_rotation(),
             Self::Setup(instrument, unknown) => match unknown.error {
                 SetupError::ReferenceTurn(_) => true,
-                SetupError::Zero(_) => instrument.sight.is_angle(),
+                SetupError::Zero(_) | SetupError::Drift(_) => instrument.sight.is_angle(),
                 _ => false,
             },
         }
@@ -133,6 +138,14 @@ impl Design {
         let terms = [&self.terms, further].concat();
         let more = Self::in_addition(self.machine.clone(), terms, self.instruments.clone());
         more.with_known(self.known())
+    }
+
+    /// The same with drifts that count from the first reading of each instrument.
+    pub fn from_first_readings(mut self, readings: &Readings) -> Self {
+        for (of, instrument) in self.instruments.iter_mut().enumerate() {
+            instrument.drift.from_s = readings.first_s(of).unwrap_or(instrument.drift.from_s);
+        }
+        self
     }
 
     /// The same with what was known before of several unknowns together; of other unknowns it says nothing.
@@ -239,7 +252,8 @@ impl Design {
             }
             _ => actual, // no other reading asks for it
         };
-        let view = View { nominal, actual, direction: readings.directions[i] };
+        let drifted = instrument.drifted(&self.machine, command, readings.times_s[i]);
+        let view = View { nominal, actual, direction: readings.directions[i], drifted };
         Ok(instrument.read(&view, self.setup(of, values)))
     }
 
@@ -252,7 +266,8 @@ impl Design {
         let command = &readings.commands[i];
         let frames = self.machine.error_frames(command, instrument.reference);
         let nominal = *frames.reference_from_tool();
-        let view = View { nominal, actual: nominal, direction: readings.directions[i] };
+        let drifted = instrument.drifted(&self.machine, command, readings.times_s[i]);
+        let view = View { nominal, actual: nominal, direction: readings.directions[i], drifted };
         let wrenches = instrument.wrenches(&view);
         let channels = instrument.sight.channels();
         out[..channels * n].fill(0.0);

@@ -41,6 +41,8 @@ pub fn before(unknown: &Unknown<'_>) -> f64 {
     match (machine, unknown.is_angle()) {
         _ if unknown.is_time() => 0.1,
         _ if unknown.is_share() => 1e-3,
+        (_, true) if unknown.is_rate() => 0.3e-3,
+        _ if unknown.is_rate() => 0.3,
         (true, true) => 1e-3,
         (true, false) => 1.0,
         (false, true) => 3e-3,

@@ -7,6 +7,7 @@ use super::design::Design;
 use super::minimal::minimal_location_errors;
 use super::term::{Basis, Shape, Term};
 use crate::instruments::Readings;
+use crate::instruments::drift::Walk;
 use std::ops::Range;
 use trueaxis_machine::axis::AxisKind;
 use trueaxis_machine::errors::{Component, ErrorKind, ErrorName};
@@ -55,6 +56,8 @@ pub struct Unlisted {
     /// Terms whose sizes are found together: kinds, but those of all linear axes are one group, and those of all rotary
     /// axes: the axes of a machine are of one quality, and a campaign says little of each.
     pub groups: Vec<Range<usize>>,
+    /// The group whose size is found even if the readings could do without: walks that a campaign asks for.
+    pub wanted: Option<usize>,
 }
 
 impl Unlisted {
@@ -73,13 +76,17 @@ impl Unlisted {
         let others = [
             (Follows::Arrangement, arrangement(design)),
             (Follows::Approach, reversals(design, readings, &moving)),
-            (Follows::Time, drifts(design, readings)),
+            (Follows::Time, drifts(design, readings, Walk::IfNeeded)),
         ];
         for (follows, terms) in others {
             let start = all.terms.len();
             all.add(design, follows, terms);
             all.group(start);
         }
+        let start = all.terms.len();
+        all.add(design, Follows::Time, drifts(design, readings, Walk::Always));
+        all.group(start);
+        all.wanted = (all.terms.len() > start).then(|| all.groups.len() - 1);
         all
     }
 
@@ -162,14 +169,18 @@ fn reversals(design: &Design, readings: &Readings, moving: &[usize]) -> Vec<(Ter
     axes.filter_map(term).map(|t| (t, 1.0)).collect()
 }
 
-/// How tool and workpiece drift against each other along X, Y and Z of the machine while an instrument reads.
-fn drifts(design: &Design, readings: &Readings) -> Vec<(Term, f64)> {
+/// How tool and workpiece drift against each other along X, Y and Z of the machine while the instruments read of which
+/// this is stated.
+fn drifts(design: &Design, readings: &Readings, walk: Walk) -> Vec<(Term, f64)> {
     let machine = &design.machine;
     // The body next to the bed: what is displaced there is displaced along the machine axes.
     let beside = machine.workpiece_side().min(machine.bodies().len() - 1);
     let body = machine.bodies()[beside].name;
     let mut terms = Vec::new();
     for instrument in 0..u32::try_from(design.instruments.len()).unwrap_or(0) {
+        if design.instruments[instrument as usize].drift.walk != walk {
+            continue;
+        }
         let mine = (0..readings.len()).filter(|i| readings.instruments[*i] == instrument);
         let (from, to) = mine
             .map(|i| readings.times_s[i])

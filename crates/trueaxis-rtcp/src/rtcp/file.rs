@@ -379,6 +379,7 @@ fn instrument(name: &str, tip_mm: Vec3, ball_mm: Vec3, noise_mm: f64) -> Instrum
         material: None,
         reads: Default::default(),
         assumed: Default::default(),
+        drift: Default::default(),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Reads the tables of an RTCP calibration: axis positions and readings.
 
 use super::study::{ReadingSet, Row, RtcpStudy, command_of};
+use std::collections::BTreeMap;
 use std::path::Path;
 use trueaxis_input::{CsvColumn, CsvTable, Diagnostics, Dimension, Place, Section, Unit};
 use trueaxis_machine::Machine;
@@ -12,6 +13,8 @@ use trueaxis_measure::measure::path::leaves_travel;
 const MOST_ROWS: usize = 20_000;
 /// No indicator reads more, mm.
 pub(super) const LARGE_MM: f64 = 5.0;
+/// What says that a row was read again.
+const LABELS: [&str; 2] = ["time_s", "group"];
 /// A tool that stands farther from its ball than this reads something else, mm.
 const FAR_MM: f64 = 10.0;
 
@@ -41,6 +44,7 @@ fn columns<'t>(table: &'t CsvTable, machine: &Machine, problems: &mut Diagnostic
             (Some(i), _) if machine.axes()[i].kind == AxisKind::Rotary => (Dimension::Angle, "deg"),
             (Some(_), _) => (Dimension::Length, "mm"),
             (None, Some(_)) => (Dimension::Length, ""),
+            _ if LABELS.contains(&column.name.as_str()) => continue,
             _ => {
                 let message = format!("`{}` is no axis and no reading", column.name);
                 let hint = "known here: the axes by letter (X, A; mm, deg), x_um, y_um, z_um";
@@ -122,10 +126,49 @@ pub(super) fn read_rows(
     if sound {
         check_rows(study, &set, table, &mut problems);
     }
+    if !columns.channels.is_empty() {
+        set.rows = without_copies(&set.rows, table, &mut problems);
+    }
     let sound = !problems.has_errors();
     section.take_over(problems);
     sound.then_some(set)
 }
+
+/// Rows that are equal to an earlier one to the last digit, and do not say that they were read again, count once.
+fn without_copies(rows: &[Row], table: &CsvTable, problems: &mut Diagnostics) -> Vec<Row> {
+    let labels: Vec<&CsvColumn> = LABELS.iter().filter_map(|name| table.column(name)).collect();
+    let mut first: BTreeMap<Vec<u64>, u32> = BTreeMap::new();
+    let mut kept = Vec::new();
+    let mut copies = 0;
+    for (i, row) in rows.iter().enumerate() {
+        let read = row.read_mm.iter().map(|v| v.unwrap_or(f64::MAX));
+        let numbers = row.command.iter().copied().chain(read);
+        let numbers = numbers.chain(labels.iter().map(|c| c.values[i]));
+        let key: Vec<u64> = numbers.map(|v| (v + 0.0).to_bits()).collect();
+        let Some(line) = first.get(&key) else {
+            first.insert(key, row.line);
+            kept.push(row.clone());
+            continue;
+        };
+        copies += 1;
+        if copies <= MOST_NAMED {
+            let message = format!(
+                "this row is that of line {line} again, to the last digit: the two count once"
+            );
+            let hint =
+                "a reading that was taken again has another time_s or another group; delete copies";
+            problems.warn("copied-rows", table.row_place(i), message, hint);
+        }
+    }
+    if copies > MOST_NAMED {
+        let message = format!("{copies} of {} rows are copies in all", rows.len());
+        problems.note("copied-rows", Place::whole(&table.file), message, "");
+    }
+    kept
+}
+
+/// Copies that are named one by one.
+const MOST_NAMED: usize = 3;
 
 /// Readings that no indicator reads, poses that no control reaches.
 fn check_rows(study: &RtcpStudy, set: &ReadingSet, table: &CsvTable, problems: &mut Diagnostics) {

@@ -85,11 +85,6 @@ impl Identified {
 }
 
 impl Identify {
-    /// The machine files that are written.
-    fn machines(&self) -> impl Iterator<Item = &Path> {
-        self.output.iter().chain(&self.predictor).map(PathBuf::as_path)
-    }
-
     /// The instrument of the table in place of its own.
     fn dropped<'a>(
         &'a self,
@@ -140,7 +135,7 @@ impl Question for Identify {
             // A folder that is missing is reported once.
             let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
             let beside = folder.is_none_or(Path::is_dir).then(|| covariance_path(&path));
-            Some([path].into_iter().chain(beside).map(|path| Output::file(argument, path)))
+            Some([path].into_iter().chain(beside).map(move |path| Output::file(argument, path)))
         };
         all.into_iter().filter_map(both).flatten().collect()
     }

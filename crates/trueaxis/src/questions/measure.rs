@@ -175,27 +175,28 @@ fn truth_text(
     // Writing to a String cannot fail.
     let _ = writeln!(text, "machine = {:?}", path.display().to_string());
     let _ = writeln!(text, "draw = {}", truth.factors.is_some());
-    let shown = |value: f64, angle: bool| match angle {
-        true => format!("\"{} urad\"", value * 1e6),
-        false => format!("\"{} um\"", value * 1e3),
+    let shown = |value: f64, angle: bool, by: &str| match angle {
+        true => format!("\"{} urad{by}\"", value * 1e6),
+        false => format!("\"{} um{by}\"", value * 1e3),
     };
     if !truth.errors.is_empty() {
         let _ = writeln!(text, "\n[truth.errors]");
     }
     for (error, value) in &truth.errors {
-        let _ = writeln!(text, "{error} = {}", shown(*value, error.component.is_rotation()));
+        let _ = writeln!(text, "{error} = {}", shown(*value, error.component.is_rotation(), ""));
     }
     for (instrument, values) in truth.instruments.iter().zip(&truth.setups) {
         if !values.is_empty() {
             let _ = writeln!(text, "\n[truth.setup.{:?}]", instrument.name);
         }
         for (unknown, value) in instrument.unknowns.iter().zip(values) {
+            let by = if unknown.error.is_rate() { "/h" } else { "" };
             let angle = match unknown.error {
                 SetupError::ReferenceTurn(_) | SetupError::Scale | SetupError::Material => true,
-                SetupError::Zero(_) => instrument.sight.is_angle(),
+                SetupError::Zero(_) | SetupError::Drift(_) => instrument.sight.is_angle(),
                 _ => false,
             };
-            let _ = writeln!(text, "{} = {}", unknown.name, shown(*value, angle));
+            let _ = writeln!(text, "{} = {}", unknown.name, shown(*value, angle, by));
         }
     }
     let _ = writeln!(text, "\n[wrong]\n# rows of each table, counted from 1, wrong on purpose");

@@ -363,7 +363,8 @@ impl Fitted {
         readings: &Readings,
     ) -> Result<Self, FitError> {
         let design = Design::new(machine, Vec::new(), instruments.to_vec());
-        let instruments = instruments.to_vec();
+        let design = design.from_first_readings(readings);
+        let instruments = design.instruments.clone();
         if design.unknowns() > 0 {
             let found = fit(&design, readings, &[])?;
             let (residuals, covariance) = (found.residuals, found.covariance);

@@ -59,6 +59,14 @@ impl Disturb {
     }
 }
 
+impl VirtualCampaign {
+    /// Paths on the machine as its file states it, without disturbances.
+    pub(super) fn nominal(campaign: &Campaign, paths: Vec<Path>) -> Self {
+        let disturb = Disturb::none(campaign.instruments.len());
+        Self { paths, truth: plain(campaign, 1), disturb }
+    }
+}
+
 /// The machine of the campaign and the set-ups as they are stated.
 fn plain(campaign: &Campaign, seed: u64) -> Truth {
     let bare = |i: &Instrument| Instrument { unknowns: Vec::new(), ..i.clone() };
@@ -200,6 +208,7 @@ fn possible(instrument: &Instrument) -> Vec<(String, SetupError)> {
     let all = all.chain(three.map(SetupError::ReferenceTurn));
     let all = all.chain(zeros).chain([SetupError::Scale]);
     let all = all.chain(instrument.material.is_some().then_some(SetupError::Material));
+    let all = all.chain(three.map(SetupError::Drift));
     all.map(|error| (kind.unknown_name(error), error)).collect()
 }
 
@@ -265,12 +274,17 @@ fn read_setup(
             return item.error("which-instrument", message, &hint);
         }
     };
+    let is_angle = campaign.instruments[of].sight.is_angle();
     let dimension = match error {
+        SetupError::Drift(_) if is_angle => Dimension::AngularVelocity,
+        SetupError::Drift(_) => Dimension::Velocity,
         SetupError::ReferenceTurn(_) | SetupError::Scale | SetupError::Material => Dimension::Angle,
-        SetupError::Zero(_) if campaign.instruments[of].sight.is_angle() => Dimension::Angle,
+        SetupError::Zero(_) if is_angle => Dimension::Angle,
         _ => Dimension::Length,
     };
     if let Some(value) = drawn(item, dimension, random) {
+        // Velocities are in mm/s and rad/s, drifts by the hour.
+        let value = if error.is_rate() { value * 3600.0 } else { value };
         set(truth, of, key.to_owned(), error, value);
     }
 }

@@ -9,6 +9,7 @@
 
 use super::{AxisDisturb, Chance, VirtualCampaign, chance, normal};
 use crate::measure::motion::{REST, length_mm};
+use crate::measure::path::Path;
 use crate::measure::{Campaign, Motion, Reading};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Command, MAX_AXES};
@@ -85,6 +86,15 @@ pub fn follow(campaign: &Campaign, real: &VirtualCampaign) -> (Vec<Stand>, f64) 
         }
     }
     (stands, drives.time_s)
+}
+
+/// Gives every station of paths that follow each other the time at which it would be read.
+pub fn set_times(campaign: &Campaign, paths: &mut [Path]) {
+    let real = VirtualCampaign::nominal(campaign, paths.to_vec());
+    for stand in follow(campaign, &real).0 {
+        let stations = &mut paths[stand.path as usize].stations;
+        stations.times_s[stand.station as usize] = stand.reading.time_s;
+    }
 }
 
 /// The drives of all axes.

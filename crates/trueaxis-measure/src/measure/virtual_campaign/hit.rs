@@ -62,7 +62,10 @@ pub fn hit(
     };
     let gap = |t: f64| {
         let actual = tool.pose(&at(t), stand).map_err(Miss::Outside)?;
-        let view = View { nominal: actual, actual, direction: stand.reading.direction };
+        let time_s = stand.reading.time_s;
+        let drifted = tool.instrument.drifted(&campaign.machine, &from, time_s);
+        let direction = stand.reading.direction;
+        let view = View { nominal: actual, actual, direction, drifted };
         Ok(tool.instrument.read(&view, tool.setup)[0] - reach_mm)
     };
     let (mut t, mut g) = (0.0, gap(0.0)?);

@@ -142,6 +142,7 @@ fn tip_in_workpiece(machine: &Machine) -> Instrument {
         material: None,
         reads: Default::default(),
         assumed: Default::default(),
+        drift: Default::default(),
     }
 }
 
