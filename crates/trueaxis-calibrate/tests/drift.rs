@@ -117,7 +117,7 @@ fn found(campaign: &str, table: &str) -> (Campaign, Identification, Records) {
 
 fn value(found: &Identification, name: &str) -> (f64, f64) {
     let of = found.found.iter().find(|f| f.name == name);
-    of.and_then(|f| f.value).unwrap_or_else(|| panic!("{name} is not told"))
+    of.and_then(|f| f.value).unwrap_or_else(|| panic!("{name} is not stated"))
 }
 
 /// Rates and errors of many campaigns lie within their 95 % intervals as often as they say; a drift that is not listed

@@ -13,6 +13,8 @@ use trueaxis_measure::measure::path::leaves_travel;
 const MOST_ROWS: usize = 20_000;
 /// No indicator reads more, mm.
 pub(super) const LARGE_MM: f64 = 5.0;
+/// From which side an axis came: a column of the tables of `identify`, of which the centres know nothing.
+const SIDE: &str = "approach";
 /// What says that a row was read again.
 const LABELS: [&str; 2] = ["time_s", "group"];
 /// A tool that stands farther from its ball than this reads something else, mm.
@@ -38,13 +40,15 @@ fn columns<'t>(table: &'t CsvTable, machine: &Machine, problems: &mut Diagnostic
     let mut found = Columns::default();
     for column in &table.columns {
         let (name, unit) = column.name.split_once('_').unwrap_or((&column.name, ""));
+        if LABELS.contains(&column.name.as_str()) || unit == SIDE {
+            continue;
+        }
         let axis = machine.axes().iter().position(|a| a.name.to_string() == name);
         let channel = ["x", "y", "z"].iter().position(|c| *c == name);
         let (kind, usual) = match (axis, channel) {
             (Some(i), _) if machine.axes()[i].kind == AxisKind::Rotary => (Dimension::Angle, "deg"),
             (Some(_), _) => (Dimension::Length, "mm"),
             (None, Some(_)) => (Dimension::Length, ""),
-            _ if LABELS.contains(&column.name.as_str()) => continue,
             _ => {
                 let message = format!("`{}` is no axis and no reading", column.name);
                 let hint = "known here: the axes by letter (X, A; mm, deg), x_um, y_um, z_um";
