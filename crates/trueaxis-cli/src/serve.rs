@@ -16,7 +16,7 @@ Examples:
   trueaxis serve                        the current folder
   trueaxis serve ~/my-machine --open
   trueaxis serve --listen 0.0.0.0 --port 8080
-  trueaxis serve --origin https://mill.example    behind a proxy with TLS
+  trueaxis serve --origin https://mill.example    with a proxy for TLS
 
 Prints the link and serves until Ctrl-C. The link ends in a token, another one at every start;
 requests without it are refused, so that other users of this computer do not read or save your

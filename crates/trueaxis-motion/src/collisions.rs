@@ -34,8 +34,8 @@ pub struct Collisions {
     pub log: Log,
 }
 
-/// Work of a check, in pairs of boxes (about 0.1 µs each): a basis, and what each move adds, and each mm or milliradian of
-/// an axis within its travel. A path that leads out of the travel is absurd, and adds nothing for its length.
+/// Work of a check, in pairs of boxes (about 0.1 µs each): a basis, and what each move within the travels adds, and each
+/// mm or milliradian of it. A path that leads out of the travels is absurd or wrong, and adds nothing.
 const WORK: u64 = 20_000_000;
 const WORK_OF_MOVE: u64 = 10_000;
 const WORK_OF_STEP: f64 = 2_000.0;
@@ -103,7 +103,8 @@ impl Collisions {
         [self.work, self.most_work]
     }
 
-    fn work_of_way(&self, from: &Command, to: &Command) -> u64 {
+    /// How much the check of a move may be.
+    fn work_of_move(&self, from: &Command, to: &Command) -> u64 {
         let axes = self.machine.axes();
         if axes
             .iter()
@@ -116,7 +117,7 @@ impl Collisions {
             let way = (to[i] - from[i]).abs();
             if axis.kind == AxisKind::Rotary { 1e3 * way } else { way }
         });
-        (WORK_OF_STEP * steps.sum::<f64>().min(LONGEST_STEP)) as u64
+        WORK_OF_MOVE + (WORK_OF_STEP * steps.sum::<f64>().min(LONGEST_STEP)) as u64
     }
 
     fn change_tool(&mut self, number: u32) {
@@ -138,7 +139,7 @@ impl Collisions {
         };
         let poses = |command: &Command| machine.body_poses(command, &ErrorValues::default());
         self.contacts.clear();
-        self.most_work += WORK_OF_MOVE + self.work_of_way(&from, &node.command);
+        self.most_work += self.work_of_move(&from, &node.command);
         let before = self.scene.work();
         self.scene.limit_work(before + self.most_work.saturating_sub(self.work));
         let is_whole = self.scene.sweep(&poses, &sweep, &mut self.contacts);
@@ -186,5 +187,70 @@ impl Observer for Collisions {
                 self.see(node, stamp);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Job, Options, ProgramFiles, simulate};
+    use std::path::Path;
+    use trueaxis_input::{Files, Source};
+    use trueaxis_machine::file::NoTables;
+
+    const MACHINE: &str = include_str!("../../../machines/wyxzcat-gantry/machine.toml");
+    const PROGRAM: &[u8] = include_bytes!("../../../examples/02_simulate/impeller-840d.mpf");
+    const SETUP: &str = include_str!("../../../examples/02_simulate/impeller-840d.setup.toml");
+
+    /// The one file that a test needs.
+    struct SetUpFile(String);
+
+    impl Source for SetUpFile {
+        fn read(&self, _: &Path) -> std::io::Result<Vec<u8>> {
+            Ok(self.0.clone().into_bytes())
+        }
+
+        fn is_file(&self, path: &Path) -> bool {
+            path == Path::new("part.setup.toml")
+        }
+    }
+
+    /// The check of the impeller on the gantry whose tool has another length, with the names of its programs.
+    fn impeller(length: &str) -> (Collisions, Vec<String>) {
+        assert!(SETUP.contains("length = \"160 mm\""));
+        let setup = SETUP.replace("length = \"160 mm\"", &format!("length = \"{length}\""));
+        let files = Files::new(SetUpFile(setup));
+        let named = ProgramFiles {
+            files: &files,
+            program: "part.mpf".as_ref(),
+            text: Some(PROGRAM),
+            setup: Some("part.setup.toml".as_ref()),
+            control: None,
+        };
+        let mut problems = Diagnostics::new();
+        let machine = Machine::check("m.toml", MACHINE, &NoTables).0.unwrap();
+        let job = Job::read(machine, &named, Options::default(), &mut problems).unwrap();
+        let job = job.with_models("m.toml".as_ref(), &mut problems);
+        assert!(!problems.has_errors(), "{problems:?}");
+        let mut watch = job.collisions().unwrap();
+        let run = simulate(&job.machine, &job.program, &job.setup, &job.options, &mut [&mut watch]);
+        (watch, run.programs)
+    }
+
+    /// "160 m" by a slip of the unit: the check took minutes, as its steps follow the end of the tool.
+    #[test]
+    fn the_check_of_an_absurdly_long_tool_ends_and_says_so() {
+        let (usual, programs) = impeller("160 mm");
+        let [work, most] = usual.work();
+        assert!(usual.problems(&programs).iter().next().is_none());
+        assert!(work > 1_000 && 100 * work < most, "{work} of {most}");
+        let (long, programs) = impeller("160 m");
+        let [work, most] = long.work();
+        let problems = long.problems(&programs);
+        let found = problems.iter().next().expect("it says so");
+        assert_eq!((found.code, &*found.place.file), ("collisions-not-checked", "part.mpf"));
+        assert!(found.place.line > 1 && found.message.contains("160000 mm"), "{found}");
+        // The last question goes a little beyond; nothing is added outside the travels.
+        assert!(most < 2 * WORK && work < most + most / 10, "{work} of {most}");
     }
 }

@@ -252,7 +252,7 @@ mod tests {
             let foreign = [&[("origin", "https://evil")], &says[..]].concat();
             assert_eq!(asks(&stated, &foreign), 403);
         }
-        // Its cookie goes by https only.
+        // Its cookie is sent by https only.
         let guard = guard(true, Some("a1b2"), &["https://mill.example"]);
         let uri = "/?token=a1b2".parse().unwrap();
         let secure = |host| {

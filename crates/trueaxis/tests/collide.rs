@@ -23,7 +23,6 @@ use trueaxis::simulate::collide::{
     Allowed, BodyModel, Contact, Mesh, Nearest, Placed, Role, Scene, Scratch, Sweep, ToolShape,
     Triangle, cuboid, export, gap, load_models, load_stl, read_stl, revolve, write_stl,
 };
-use trueaxis::simulate::{Collisions, Job, Options, ProgramFiles, simulate};
 
 const SHIPPED: [&str; 7] = [
     "xkas2525",
@@ -563,54 +562,4 @@ fn stl_files(folder: &Path, found: &mut Vec<PathBuf>) {
             found.push(path);
         }
     }
-}
-
-/// The check of collisions of an example whose tool has another length, and the names of its programs.
-fn impeller(length: &str) -> (Collisions, Vec<String>) {
-    let machine_path = root().join("machines/wyxzcat-gantry/machine.toml");
-    let example = root().join("examples/02_simulate/impeller-840d");
-    let text = std::fs::read_to_string(example.with_extension("setup.toml")).expect("the set-up");
-    assert!(text.contains("length = \"160 mm\""));
-    let text = text.replace("length = \"160 mm\"", &format!("length = \"{length}\""));
-    let name = format!("trueaxis-length-{}-{}.setup.toml", std::process::id(), length.len());
-    let setup = std::env::temp_dir().join(name);
-    std::fs::write(&setup, text).expect("a file for the test");
-    let program = example.with_extension("mpf");
-    let named = ProgramFiles {
-        files: &disk(),
-        program: &program,
-        text: None,
-        setup: Some(&setup),
-        control: None,
-    };
-    let mut problems = Diagnostics::new();
-    let machine = files::machine(&machine_path).0.expect("a machine");
-    let job = Job::read(machine, &named, Options::default(), &mut problems).expect("a job");
-    let job = job.with_models(&machine_path, &mut problems);
-    assert!(!problems.has_errors(), "{problems:?}");
-    let mut collisions = job.collisions().expect("bodies");
-    let run =
-        simulate(&job.machine, &job.program, &job.setup, &job.options, &mut [&mut collisions]);
-    let _ = std::fs::remove_file(setup);
-    (collisions, run.programs)
-}
-
-/// "160 m" by a slip of the unit: the check took minutes, as its steps follow the end of the tool.
-#[test]
-fn the_check_of_an_absurdly_long_tool_ends_and_says_so() {
-    let (usual, programs) = impeller("160 mm");
-    let [work, most] = usual.work();
-    println!("160 mm: work {work} of {most}");
-    assert!(usual.problems(&programs).iter().next().is_none());
-    assert!(100 * work < most, "{work} of {most}");
-    let (long, programs) = impeller("160 m");
-    let [work, most] = long.work();
-    println!("160 m: work {work} of {most}");
-    let problems = long.problems(&programs);
-    let found = problems.iter().next().expect("it says so");
-    assert_eq!(found.code, "collisions-not-checked");
-    assert!(found.place.file.ends_with("impeller-840d.mpf") && found.place.line > 1, "{found}");
-    assert!(found.message.contains("160000 mm"), "{found}");
-    // The last question goes a little beyond.
-    assert!(work < most + most / 10, "{work} of {most}");
 }
