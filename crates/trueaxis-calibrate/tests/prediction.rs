@@ -56,8 +56,8 @@ impl Tables for Nothing {
     }
 }
 
-fn found(campaign: &Campaign, readings: &Readings) -> Identification {
-    let options = Options { predicts: true, ..Options::default() };
+fn found(campaign: &Campaign, readings: &Readings, scores: bool) -> Identification {
+    let options = Options { predicts: true, scores, ..Options::default() };
     let mut problems = Diagnostics::new();
     let records = Records::bare(readings.clone());
     identify(campaign, &options, &records, &mut problems).unwrap_or_else(|| panic!("{problems:?}"))
@@ -101,7 +101,7 @@ fn deviation(machine: &Machine, command: &Command, errors: &ErrorValues) -> Vec3
 #[test]
 fn law_the_file_says_what_the_predictor_says() {
     let (campaign, readings) = example();
-    let found = found(&campaign, &readings);
+    let found = found(&campaign, &readings, true);
     let file = written(&campaign, &found);
     let machine = read_back(&file);
     let predictor = found.adequacy.predictor.as_ref().expect("a prediction");
@@ -149,55 +149,65 @@ fn law_the_file_says_what_the_predictor_says() {
     assert!(!problems.has_errors(), "{problems:?}");
 }
 
-/// What compensation by the file leaves at every third pose, which was not measured: residual, u, and without it.
+/// What compensation by the file leaves at every third pose, which was not measured, after the zero was set at the first:
+/// residual, its u, and the deviation without compensation.
 fn compensated(seed: u64) -> Vec<[f64; 3]> {
     let (campaign, poses) = example();
     let mut random = SplitMix64::new(seed);
     let (design, values) = truth(&campaign, &mut random);
     let all = read(&mut random, &design, &poses, &values);
     let measured = all.filtered(|i| i % 3 != 0);
-    let machine = read_back(&written(&campaign, &found(&campaign, &measured)));
-    let quantities = machine.uncertain_quantities();
-    let mut left = Vec::new();
-    for command in poses.commands.iter().step_by(3) {
+    let machine = read_back(&written(&campaign, &found(&campaign, &measured, false)));
+    let quantities = machine.uncertain_quantities().len();
+    // The deviation by truth and by the file, then by the file where one quantity is off by its u.
+    let at = |command: &Command| -> Vec<Vec3> {
         let real = design.errors_at(command, &STILL, &values).expect("a place");
-        let real = deviation(&campaign.machine, command, &real);
         let errors = machine.errors_at(command, &STILL).expect("a place");
-        let predicted = deviation(&machine, command, &errors);
-        let known = machine.uncertainties_at(command, &quantities);
-        let by = |q| deviation(&machine, command, &known.displaced_by(&errors, q, 1.0)) - predicted;
-        let mut squares = Vec3::zeros();
-        (0..quantities.len()).map(by).for_each(|d| squares += d.component_mul(&d));
-        let off = real - predicted;
-        left.extend((0..3).map(|c| [off[c], squares[c].sqrt(), real[c]]));
+        let known = machine.uncertainties_at(command, &machine.uncertain_quantities());
+        let own = deviation(&machine, command, &errors);
+        let moved = |q| deviation(&machine, command, &known.displaced_by(&errors, q, 1.0)) - own;
+        let first = [deviation(&campaign.machine, command, &real), own];
+        first.into_iter().chain((0..quantities).map(moved)).collect()
+    };
+    let zero = at(&poses.commands[0]);
+    let mut left = Vec::new();
+    for command in poses.commands.iter().step_by(3).skip(1) {
+        let here: Vec<Vec3> = at(command).iter().zip(&zero).map(|(a, b)| a - b).collect();
+        let off = here[0] - here[1];
+        for c in 0..3 {
+            let u = here[2..].iter().map(|d| d[c] * d[c]).sum::<f64>().sqrt();
+            left.push([off[c], u, here[0][c]]);
+        }
     }
     left
 }
 
 #[test]
 fn law_compensation_of_places_that_were_not_measured() {
-    let all: Vec<[f64; 3]> =
-        (0..12_u64).into_par_iter().flat_map(|s| compensated(5 + 31 * s)).collect();
+    let seeds: Vec<u64> = (0..12).map(|k| 5 + 31 * k).collect();
+    let all: Vec<[f64; 3]> = seeds.into_par_iter().flat_map(compensated).collect();
     let n = all.len() as f64;
     let inside = all.iter().filter(|[off, u, _]| off.abs() <= 2.0 * u).count() as f64 / n;
     let rms = |i: usize| (all.iter().map(|row| row[i] * row[i]).sum::<f64>() / n).sqrt();
     let [left, u, without] = [0, 1, 2].map(rms);
-    eprintln!("{inside} inside, {left} left, u {u}, {without} without");
+    println!("{inside:.3} inside, {left:.4} mm left, u {u:.4}, {without:.4} without");
     assert!(inside >= 0.90, "{inside}");
-    assert!(left < 0.3 * without, "{left} mm of {without} mm");
+    assert!(left < 0.25 * without, "{left} mm of {without} mm");
     // The uncertainty is of the size of what remains, not only larger.
-    assert!(u < 2.5 * left, "u {u}, {left} remains");
+    assert!(u < 2.0 * left, "u {u}, {left} remains");
 }
 
 #[test]
 fn law_neither_order_nor_list_changes_the_prediction() {
     let (campaign, readings) = example();
     let poses = readings.commands.clone();
+    // After the zero was set: a shift of all places alike cannot be told from the place of the ball.
     let tips = |campaign: &Campaign, readings: &Readings| -> Vec<Vec3> {
-        let machine = read_back(&written(campaign, &found(campaign, readings)));
+        let machine = read_back(&written(campaign, &found(campaign, readings, false)));
         let at =
             |q: &Command| deviation(&machine, q, &machine.errors_at(q, &STILL).expect("a place"));
-        poses.iter().map(at).collect()
+        let zero = at(&poses[0]);
+        poses.iter().map(|q| at(q) - zero).collect()
     };
     let first = tips(&campaign, &readings);
     let apart = |other: Vec<Vec3>| {
@@ -206,12 +216,13 @@ fn law_neither_order_nor_list_changes_the_prediction() {
     };
     let mut backwards = Readings::default();
     (0..readings.len()).rev().for_each(|i| backwards.push(readings.row(i)));
-    assert!(apart(tips(&campaign, &backwards)) < 1e-8);
+    assert!(apart(tips(&campaign, &backwards)) < 1e-6);
     // Errors that are not listed are predicted all the same, with a prior in place of none.
     for out in ["EA0Z", "EC0Y"] {
         let mut fewer = example().0;
         fewer.terms.retain(|t| t.error.to_string() != out);
         let apart = apart(tips(&fewer, &readings));
-        assert!(apart < 0.002, "without {out}: {apart} mm apart");
+        println!("without {out}: {apart:.4} mm apart");
+        assert!(apart < 0.004, "without {out}: {apart} mm apart");
     }
 }

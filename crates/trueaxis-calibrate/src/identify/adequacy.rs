@@ -144,8 +144,10 @@ pub struct Task<'a> {
     pub repeats: Option<Scatter>,
     /// How the fit goes about it.
     pub rule: Rule,
-    /// Whether readings are predicted from others, too.
+    /// Whether readings are predicted by all errors, too.
     pub predicts: bool,
+    /// Whether the prediction is scored on readings that were held out.
+    pub scores: bool,
 }
 
 /// Tests the listed unknowns, and finds what the rest looks like.

@@ -395,6 +395,7 @@ impl<'a> Work<'a> {
             repeats,
             rule: options.rule(),
             predicts: options.predicts,
+            scores: options.scores,
         })?;
         let determined = adequacy.explained.listed.clone();
         let influences = influences(design, readings, &self.weights, &self.fit);

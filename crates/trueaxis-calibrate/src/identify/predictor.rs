@@ -67,7 +67,7 @@ pub(super) fn predictor(
     }
     let in_sample = rms(all, task, |_| &values);
     let mut splits = Vec::new();
-    if task.readings.len() <= MOST_ROWS {
+    if task.scores && task.readings.len() <= MOST_ROWS {
         splits.push((None, parts_by_place(task.readings, FOLDS).0));
         splits.extend(angles(task).into_iter().map(|(axis, parts)| (Some(axis), parts)));
     }

@@ -213,8 +213,10 @@ pub struct Options {
     pub threshold: f64,
     /// The whole machine, or what is linear of it.
     pub model: Model,
-    /// Whether readings are predicted from others, too.
+    /// Whether readings are predicted by all errors, too.
     pub predicts: bool,
+    /// Whether the prediction is scored on readings that were held out.
+    pub scores: bool,
     /// When it was measured, as written.
     pub date: Option<String>,
 }
@@ -228,6 +230,7 @@ impl Default for Options {
             threshold: THRESHOLD,
             model: Model::Full,
             predicts: false,
+            scores: true,
             date: None,
         }
     }
