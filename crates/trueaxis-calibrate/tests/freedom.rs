@@ -43,6 +43,7 @@ fn campaign(machine: Machine) -> Campaign {
         unknowns: kind.usual_unknowns().into_iter().map(free).collect(),
         material: None,
         reads: Default::default(),
+        drift: Default::default(),
         assumed: Default::default(),
     };
     Campaign {
@@ -55,6 +56,7 @@ fn campaign(machine: Machine) -> Campaign {
         instruments: vec![probe],
         tables: vec![Vec::new()],
         stages: Default::default(),
+        limits: Default::default(),
         machine,
     }
 }

@@ -125,6 +125,7 @@ fn campaign(machine: &Machine, with_servo: bool) -> Campaign {
         instruments: vec![probe(machine)],
         tables: vec![Vec::new()],
         stages: Default::default(),
+        limits: Default::default(),
     }
 }
 

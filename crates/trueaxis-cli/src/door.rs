@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use trueaxis::files::noted_disk;
 use trueaxis::files::output::{Guard, Output, no_file_twice};
 use trueaxis::input::Diagnostics;
-use trueaxis::questions::{Answer, Content, NewFile, Question, complete, may_put};
+use trueaxis::questions::{Answer, Content, NewFile, Question, complete, is_finite, may_put};
 use trueaxis::report::refused_json;
 
 /// What is shown and written.
@@ -66,6 +66,7 @@ impl Door<'_> {
             Some(input) => answer(question, input, &mut problems),
             None => None,
         };
+        let answer = answer.filter(|answer| is_finite(answer, &mut problems));
         let found = problems.clone();
         let in_spite = answer.as_ref().and_then(Answer::in_spite_of_errors);
         let failed = report_and(problems, in_spite.unwrap_or("nothing was written"));

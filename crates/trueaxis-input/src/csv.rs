@@ -1,6 +1,7 @@
 //! Tables of numbers whose headings carry the units.
 
 use crate::limits::{LONGEST_HEADING, MOST_BAD_ROWS, MOST_COLUMNS, MOST_ROWS, beginning};
+use crate::plausible::largest_under;
 use crate::{Diagnostics, Place, Unit};
 
 /// One column of numbers with its heading.
@@ -168,8 +169,16 @@ impl CsvTable {
     fn read_row(&mut self, line: usize, text: &str, problems: &mut Diagnostics) -> Option<()> {
         let mut row = Vec::with_capacity(self.columns.len());
         for (column, field) in fields(text) {
+            let heading = self.columns.get(row.len()).map_or("", |c| c.name.as_str());
             match field.parse::<f64>() {
-                Ok(value) if value.is_finite() => row.push(value),
+                Ok(value) if value.is_finite() && too_large(heading, value).is_none() => {
+                    row.push(value);
+                }
+                Ok(value) if value.is_finite() => {
+                    let place = Place { file: self.file.clone(), line, column };
+                    report_too_large(heading, (field, value), place, problems);
+                    return None;
+                }
                 _ => {
                     let place = Place { file: self.file.clone(), line, column };
                     let message = format!("`{field}` is not a finite number");
@@ -222,6 +231,33 @@ pub(crate) fn rows_excess(bad: usize, place: Place, problems: &mut Diagnostics) 
     let message = format!("{bad} rows cannot be read; the remaining rows were not checked");
     let hint = "check whether this is the intended file";
     problems.error("too-many-bad-rows", place, message, hint);
+}
+
+/// The bound that a number exceeds under a heading: no machine has such a value, whatever the table is about.
+pub(crate) fn too_large(heading: &str, value: f64) -> Option<&'static str> {
+    // Below this no unit of a heading makes a number too large: the usual case is fast.
+    if value.abs() < 10.0 {
+        return None;
+    }
+    match largest_under(heading) {
+        Some((unit, largest, words)) => (unit.to_inner(value).abs() > largest).then_some(words),
+        None => (value.abs() > LARGEST_NUMBER).then_some("10^12"),
+    }
+}
+
+/// The largest number under a heading without a unit.
+const LARGEST_NUMBER: f64 = 1e12;
+
+pub(crate) fn report_too_large(
+    heading: &str,
+    (field, value): (&str, f64),
+    place: Place,
+    problems: &mut Diagnostics,
+) {
+    let largest = too_large(heading, value).unwrap_or("the largest value");
+    let message =
+        format!("column `{heading}`: `{field}` exceeds {largest}, the most of any machine");
+    problems.error("too-large", place, message, "check the exponent, and the unit of the heading");
 }
 
 /// The separator of the headings, if it is not a comma.

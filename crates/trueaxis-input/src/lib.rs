@@ -3,7 +3,8 @@
 //! - [`parse_quantity`], [`parse_measured`]: `"12 urad"`, `"10 ± 1 um"`, in the inner unit;
 //! - [`SourceText`], [`Section`], [`Item`]: reading of TOML; [`CsvTable`] and [`sheet`]: tables;
 //! - [`Diagnostic`]: code, place, message and hint of one problem; [`Diagnostics`]: all of them;
-//! - [`Files`], [`Source`]: access to files; [`limits`]: how much of a text is read.
+//! - [`Files`], [`Source`]: access to files; [`limits`]: how much of a text is read;
+//! - [`plausible`]: ranges that quantities of machine tools have.
 //!
 //! ```
 //! use trueaxis_input::{Dimension, SourceText};
@@ -39,6 +40,7 @@ mod diagnostic;
 mod files;
 pub mod foreign;
 pub mod limits;
+pub mod plausible;
 mod quantity;
 mod section;
 pub mod sheet;

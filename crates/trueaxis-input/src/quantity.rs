@@ -115,15 +115,12 @@ const UNITS: &[(Dimension, &[&str], (f64, f64))] = &[
     (Dimension::Ratio, &["%"], (1.0, 100.0)),
 ];
 
-/// Upper limit of a quantity in its inner unit (mm, rad, mm/s³ …). Larger numbers are typing
-/// errors, and products of them would overflow.
-const LARGEST: f64 = 1e12;
-
 /// A unit of measurement: the factor from a number in this unit to the inner unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
     numerator: f64,
     denominator: f64,
+    dimension: Dimension,
 }
 
 impl Unit {
@@ -142,7 +139,7 @@ impl Unit {
         for &(found, names, (numerator, denominator)) in UNITS {
             if names.contains(&name) {
                 if found == dimension {
-                    return Ok(Self { numerator, denominator });
+                    return Ok(Self { numerator, denominator, dimension });
                 }
                 other = Some(found);
             }
@@ -154,6 +151,13 @@ impl Unit {
             }
             None => QuantityError::UnknownUnit(name.to_owned(), dimension),
         })
+    }
+
+    /// The unit of that name, of whatever dimension.
+    pub(crate) fn any(name: &str) -> Option<(Self, Dimension)> {
+        let found = UNITS.iter().find(|(_, names, _)| !name.is_empty() && names.contains(&name))?;
+        let (dimension, _, (numerator, denominator)) = *found;
+        Some((Self { numerator, denominator, dimension }, dimension))
     }
 
     /// A number of this unit in the inner unit (mm, rad, s, °C).
@@ -172,20 +176,47 @@ impl Unit {
     /// ```
     ///
     /// # Errors
-    /// The number is not finite, or its absolute value exceeds 10¹² of the inner unit.
+    /// The number is not finite, or larger than any of a machine: 1000 km, 10⁵ rad, 10¹² of other inner units.
     pub fn checked(self, number: f64) -> Result<f64, QuantityError> {
         let inner = self.to_inner(number);
         if !number.is_finite() {
             return Err(QuantityError::NotFinite(number.to_string()));
         }
-        if inner.abs() > LARGEST {
-            return Err(QuantityError::TooLarge(format!("{number:e}")));
+        if inner.abs() > self.dimension.largest() {
+            return Err(QuantityError::TooLarge(format!("{number:e}"), self.dimension));
         }
         Ok(inner)
     }
 }
 
 impl Dimension {
+    /// Upper limit of a quantity in its inner unit. Larger numbers are typing errors, and products of them would
+    /// overflow.
+    pub(crate) fn largest(self) -> f64 {
+        match self {
+            Self::Length => 1e9,
+            Self::Angle => 1e5,
+            Self::Time => 1e11,
+            Self::Temperature | Self::LengthPerKelvin | Self::AnglePerKelvin => 1e4,
+            Self::Expansion => 1e2,
+            _ => 1e12,
+        }
+    }
+
+    /// The same for messages.
+    pub(crate) fn largest_in_words(self) -> &'static str {
+        match self {
+            Self::Length => "1000 km",
+            Self::Angle => "10^5 rad",
+            Self::Time => "10^11 s",
+            Self::Temperature => "10^4 °C",
+            Self::LengthPerKelvin => "10^4 mm/K",
+            Self::AnglePerKelvin => "10^4 rad/K",
+            Self::Expansion => "100 1/K",
+            _ => "10^12 of the inner unit",
+        }
+    }
+
     /// The accepted units, the inner unit first, separated by commas: for hints.
     pub fn units(self) -> String {
         let names: Vec<_> =
@@ -235,8 +266,8 @@ pub enum QuantityError {
     NotANumber(String),
     /// NaN, infinite, or too large for a double.
     NotFinite(String),
-    /// Finite, but larger than any quantity of a machine (10¹² mm, rad …).
-    TooLarge(String),
+    /// Finite, but larger than any quantity of this dimension.
+    TooLarge(String, Dimension),
     /// A number without a unit.
     NoUnit(Dimension),
     /// A unit of unknown name.
@@ -260,7 +291,7 @@ impl QuantityError {
         match self {
             Self::NotANumber(_) => "not-a-number",
             Self::NotFinite(_) => "not-finite",
-            Self::TooLarge(_) => "too-large",
+            Self::TooLarge(..) => "too-large",
             Self::NoUnit(_) => "missing-unit",
             Self::UnknownUnit(..) => "unknown-unit",
             Self::WrongDimension { .. } => "wrong-unit",
@@ -274,7 +305,7 @@ impl QuantityError {
             Self::NotANumber(_) | Self::NotFinite(_) => {
                 "write a finite number and its unit, such as \"12.5 mm\"".to_owned()
             }
-            Self::TooLarge(_) => "check the exponent and the unit".to_owned(),
+            Self::TooLarge(..) => "check the exponent and the unit".to_owned(),
             // A temperature is not a difference: 30 °C is not 30 K, and 86 °F is 30 °C.
             Self::UnknownUnit(_, Dimension::Temperature) => {
                 "write °C (\"30.5 degC\"): °C = (°F − 32)/1.8 = K − 273.15".to_owned()
@@ -293,8 +324,9 @@ impl fmt::Display for QuantityError {
         match self {
             Self::NotANumber(text) => write!(f, "`{text}` is not a number"),
             Self::NotFinite(text) => write!(f, "`{text}` is not a finite number"),
-            Self::TooLarge(text) => {
-                write!(f, "`{text}` exceeds 10^12 mm, rad or s, the largest accepted value")
+            Self::TooLarge(text, d) => {
+                let largest = d.largest_in_words();
+                write!(f, "`{text}` exceeds {largest}, the largest accepted value of {d}")
             }
             Self::NoUnit(d) => write!(f, "{d} needs a unit"),
             Self::UnknownUnit(unit, d) => write!(f, "unknown unit `{unit}` for {d}"),
@@ -403,7 +435,7 @@ mod tests {
         use QuantityError as E;
         assert!(matches!(parse_quantity("nan mm", Dimension::Length), Err(E::NotFinite(_))));
         assert!(matches!(parse_quantity("1e999 mm", Dimension::Length), Err(E::NotFinite(_))));
-        assert!(matches!(parse_quantity("1e308 m", Dimension::Length), Err(E::TooLarge(_))));
+        assert!(matches!(parse_quantity("1e308 m", Dimension::Length), Err(E::TooLarge(..))));
         assert!(matches!(parse_quantity("mm", Dimension::Length), Err(E::NotANumber(_))));
         assert!(matches!(parse_quantity("1", Dimension::Angle), Err(E::NoUnit(_))));
         assert!(matches!(parse_quantity("1 furlong", Dimension::Length), Err(E::UnknownUnit(..))));

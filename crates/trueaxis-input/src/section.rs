@@ -1,6 +1,7 @@
 //! Reading of TOML: every problem is collected with its place.
 
 use crate::limits::{MOST_SYNTAX_FAULTS, toml_excess};
+use crate::plausible::{Limits, Quantity, Seen};
 use crate::{
     Diagnostic, Diagnostics, Dimension, Files, MeasuredValue, Place, QuantityError, Severity, Unit,
     parse_measured, parse_quantity,
@@ -36,6 +37,8 @@ pub struct SourceText<'a> {
     /// Why the text is not parsed, if it is beyond a limit.
     excess: Option<Diagnostic>,
     problems: RefCell<Diagnostics>,
+    /// Those of `[plausible]`.
+    limits: Cell<Limits>,
 }
 
 impl<'a> SourceText<'a> {
@@ -53,7 +56,8 @@ impl<'a> SourceText<'a> {
         let line_starts =
             std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
         let (files, last) = (files.clone(), Cell::new((0, 1)));
-        Self { file, text, files, line_starts, last, excess, problems: RefCell::default() }
+        let (problems, limits) = (RefCell::default(), Cell::default());
+        Self { file, text, files, line_starts, last, excess, problems, limits }
     }
 
     /// As [`Place::of`], in a time that does not grow with the size of the file.
@@ -93,6 +97,10 @@ impl<'a> SourceText<'a> {
             );
         }
         let section = Section::new(self, String::new(), root.span(), root.get_ref());
+        // Before everything else, wherever it stands.
+        if let Some(limits) = section.section("plausible", Limits::read) {
+            self.limits.set(limits);
+        }
         let result = reader(&section);
         section.report_unknown_keys();
         result
@@ -170,21 +178,65 @@ impl<'s> Item<'s> {
         self.value.get_ref().as_str()
     }
 
-    /// A quantity in its inner unit; `None` and a problem if it is not one of this dimension.
+    /// A quantity in its inner unit; `None` and a problem if it is not one of this dimension. One that no
+    /// machine has is reported too: [`Quantity::of`] the dimension.
     pub fn quantity(&self, dimension: Dimension) -> Option<f64> {
+        let possible = |v: &f64| Quantity::of(dimension).is_none_or(|q| self.is_possible(q, *v));
+        self.unjudged(dimension).filter(possible)
+    }
+
+    /// A quantity with an optional standard uncertainty, both in the inner unit; `None` and a
+    /// problem if it is not one of this dimension.
+    pub fn measured(&self, dimension: Dimension) -> Option<MeasuredValue> {
+        let possible = |v: &MeasuredValue| {
+            Quantity::of(dimension).is_none_or(|q| self.is_possible(q, v.value))
+        };
+        self.measured_unjudged(dimension).filter(possible)
+    }
+
+    /// A quantity that has a range of its own, in its inner unit; `None` and a problem if it is far outside.
+    pub fn quantity_of(&self, quantity: Quantity) -> Option<f64> {
+        self.unjudged(quantity.dimension()).filter(|v| self.is_possible(quantity, *v))
+    }
+
+    /// As [`Item::quantity_of`], with an optional standard uncertainty.
+    pub fn measured_of(&self, quantity: Quantity) -> Option<MeasuredValue> {
+        let value = self.measured_unjudged(quantity.dimension());
+        value.filter(|v| self.is_possible(quantity, v.value))
+    }
+
+    /// As [`Item::quantity`], of any size.
+    pub fn unjudged(&self, dimension: Dimension) -> Option<f64> {
         match self.value.get_ref() {
             DeValue::String(text) => self.accept(parse_quantity(text, dimension)),
             _ => self.plain_number(dimension),
         }
     }
 
-    /// A quantity with an optional standard uncertainty, both in the inner unit; `None` and a
-    /// problem if it is not one of this dimension.
-    pub fn measured(&self, dimension: Dimension) -> Option<MeasuredValue> {
+    /// As [`Item::measured`], of any size.
+    pub fn measured_unjudged(&self, dimension: Dimension) -> Option<MeasuredValue> {
         match self.value.get_ref() {
             DeValue::String(text) => self.accept(parse_measured(text, dimension)),
             _ => self.plain_number(dimension).map(|value| MeasuredValue { value, u: None }),
         }
+    }
+
+    /// Reports a value, in its inner unit, that is outside its range; `false` if it is refused.
+    pub fn is_possible(&self, quantity: Quantity, value: f64) -> bool {
+        let limits = self.source.limits.get();
+        let name = self.as_text().unwrap_or(quantity.range().key);
+        let seen = Seen { name, value, more: 0 };
+        // The place is only determined where there is something to report: it takes time.
+        if limits.standing(quantity, value) == crate::plausible::Standing::Plausible {
+            return true;
+        }
+        let place = self.place();
+        limits.judge(quantity, &seen, &place, &mut self.source.problems.borrow_mut())
+    }
+
+    /// The ranges of the file: [`Limits::read`].
+    pub fn limits(&self) -> Limits {
+        self.source.limits.get()
     }
 
     /// A finite number (integer or float) without unit; `None` and a problem otherwise.
@@ -340,6 +392,16 @@ impl<'s> Section<'s> {
         &self.source.files
     }
 
+    /// The ranges of the file: [`Limits::read`].
+    pub fn limits(&self) -> Limits {
+        self.source.limits.get()
+    }
+
+    /// An optional quantity that has a range of its own, in its inner unit.
+    pub fn quantity_of(&self, key: &str, quantity: Quantity) -> Option<f64> {
+        self.get(key)?.quantity_of(quantity)
+    }
+
     /// The name of the section, such as `axis.X`.
     pub fn name(&self) -> &str {
         &self.name
@@ -426,7 +488,11 @@ impl<'s> Section<'s> {
     }
 
     fn report_unknown_keys(&self) {
-        let asked = self.asked.borrow();
+        let mut asked = self.asked.borrow_mut();
+        // Every file may have it; it is named where it is described.
+        if self.name.is_empty() && !self.table.contains_key("plausible") {
+            asked.remove("plausible");
+        }
         for (key, _) in self.table.iter().filter(|(k, _)| !asked.contains(k.get_ref().as_ref())) {
             let known = asked.iter().map(String::as_str).collect::<Vec<_>>().join(", ");
             self.source.error(

@@ -1,6 +1,6 @@
 //! Tables of measuring instruments: numbers, empty cells and words.
 
-use crate::csv::{has_headings_excess, rows_excess};
+use crate::csv::{has_headings_excess, report_too_large, rows_excess, too_large};
 use crate::limits::{MOST_BAD_ROWS, MOST_ROWS};
 use crate::{Diagnostics, Dimension, Place, Unit};
 
@@ -218,6 +218,15 @@ impl Sheet {
                 Cells::Gaps if field.is_empty() => Some(f64::NAN),
                 _ => field.parse::<f64>().ok().filter(|v| v.is_finite()),
             };
+            let number = value.filter(|_| matches!(column.cells, Cells::Numbers | Cells::Gaps));
+            if let Some(number) = number.filter(|v| too_large(&column.name, *v).is_some()) {
+                let place = Place { file: self.file.clone(), line, column: at };
+                report_too_large(&column.name, (field, number), place, problems);
+                for column in &mut self.columns {
+                    column.values.truncate(self.lines.len());
+                }
+                return None;
+            }
             match value {
                 Some(value) => column.values.push(value),
                 None => {
@@ -325,6 +334,23 @@ mod tests {
         assert!(Sheet::parse("t.csv", &text, cells, &mut problems).is_none());
         let found = problems.iter().next().unwrap();
         assert_eq!((found.code, found.place.line), ("too-many-words", MAX_WORDS + 2));
+    }
+
+    #[test]
+    fn a_number_that_no_machine_has_is_refused_with_its_row() {
+        // 1e9 µm are 1 km; under a heading without a unit a number may be larger.
+        for (text, place) in [
+            ("target_mm,gap_um\n1,2\n3,1e9\n", "t.csv:3:3"),
+            ("target_mm,gap_um\n-1e308,2\n", "t.csv:2:1"),
+            ("target_deg,gap_urad\n1,1e9\n", "t.csv:2:3"),
+        ] {
+            let mut problems = Diagnostics::new();
+            assert!(Sheet::parse("t.csv", text, cells, &mut problems).is_none());
+            let found = problems.iter().next().unwrap();
+            assert_eq!((found.code, found.place.to_string().as_str()), ("too-large", place));
+        }
+        let mut problems = Diagnostics::new();
+        assert!(Sheet::parse("t.csv", "number\n1e9\n", cells, &mut problems).is_some());
     }
 
     #[test]

@@ -12,7 +12,7 @@ mod table_text;
 
 pub use chain_text::ChainText;
 pub use model_text::{read_shape, read_tool_shape};
-pub use place_text::{read_direction, read_pose, read_vector_mm};
+pub use place_text::{read_direction, read_pose, read_tip, read_vector_mm};
 
 use crate::active::read_active;
 use crate::axis::{Axis, AxisKind, Limits, Travel, iso_841_direction, iso_841_sense};
@@ -21,6 +21,7 @@ use crate::errors::{BodyName, Rotation};
 use crate::tool::ToolAssembly;
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
+use trueaxis_input::plausible::Quantity;
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, Section, SourceText};
 
 /// Where the tables that a machine file names come from; this crate opens no file.
@@ -324,7 +325,10 @@ fn read_axis(section: &Section<'_>, axis: &mut Axis, body: &mut ChainBody) {
 
 fn positive(section: &Section<'_>, key: &str, dimension: Dimension) -> Option<f64> {
     let item = section.get(key)?;
-    let value = item.quantity(dimension)?;
+    above_zero(&item, item.quantity(dimension)?, key)
+}
+
+fn above_zero(item: &Item<'_>, value: f64, key: &str) -> Option<f64> {
     if value <= 0.0 {
         let hint = "remove the entry if the value is not known";
         item.error("not-positive", format!("`{key}` must be above zero"), hint);
@@ -343,16 +347,16 @@ fn read_travel(item: &Item<'_>, kind: AxisKind) -> Option<Travel> {
         item.error("bad-travel", "the travel must be two positions".into(), hint);
         return None;
     }
-    let dimension = match kind {
-        AxisKind::Linear => Dimension::Length,
-        AxisKind::Rotary => Dimension::Angle,
+    let quantity = match kind {
+        AxisKind::Linear => Quantity::Length,
+        AxisKind::Rotary => Quantity::RotaryPosition,
     };
     let ends = item.list()?;
     let [from, to] = &ends[..] else {
         item.error("bad-travel", "the travel must be two positions".into(), hint);
         return None;
     };
-    let (from, to) = (from.quantity(dimension), to.quantity(dimension));
+    let (from, to) = (from.quantity_of(quantity), to.quantity_of(quantity));
     let (from, to) = (from?, to?);
     if from >= to {
         item.error("bad-travel", "the end of the travel is not above its start".into(), hint);
@@ -381,8 +385,8 @@ fn read_tool(section: &Section<'_>, body: &mut ChainBody) -> ToolSide {
     if let Some(pose) = section.get("placement").and_then(|i| read_pose(&i)) {
         body.placement = pose;
     }
-    let length = section.quantity("length", Dimension::Length);
-    let tip = section.get("tip").and_then(|i| read_vector_mm(&i));
+    let length = section.quantity_of("length", Quantity::ToolLength);
+    let tip = section.get("tip").and_then(|i| read_tip(&i));
     if length.is_some() && tip.is_some() {
         let message = "`length` and `tip` both state the position of the tip".to_owned();
         section.error("duplicate-tip", message, "keep one of them");
@@ -404,7 +408,9 @@ fn read_tool(section: &Section<'_>, body: &mut ChainBody) -> ToolSide {
 fn read_assembly(name: &str, section: &Section<'_>) -> Option<ToolAssembly> {
     let length = section
         .require("length", "write the distance from the gauge line to the tip, such as \"100 mm\"");
-    let diameter_mm = positive(section, "diameter", Dimension::Length);
+    let diameter_mm = section
+        .get("diameter")
+        .and_then(|i| above_zero(&i, i.quantity_of(Quantity::Diameter)?, "diameter"));
     let corner_radius_mm = section.get("corner_radius").and_then(|item| {
         let radius = item.quantity(Dimension::Length)?;
         let largest = diameter_mm.map_or(f64::INFINITY, |d| 0.5 * d * (1.0 + 1e-12));
@@ -420,7 +426,7 @@ fn read_assembly(name: &str, section: &Section<'_>) -> Option<ToolAssembly> {
     });
     let holder = section.text("holder").map(str::to_owned);
     let shape = model_text::read_tool_shape(section).unwrap_or_default();
-    let length_mm = length?.quantity(Dimension::Length)?;
+    let length_mm = length?.quantity_of(Quantity::ToolLength)?;
     let name = name.to_owned();
     Some(ToolAssembly { name, length_mm, diameter_mm, corner_radius_mm, holder, shape })
 }

@@ -345,5 +345,5 @@ fn bad_sections_are_named() {
     assert_eq!(codes("[heat.EXt]\na = \"1 um/K\"\n"), ["unknown-error-name"]);
     assert_eq!(codes("[heat.EA0Z]\na = \"1 um/K\"\n"), ["wrong-unit", "missing-key"]);
     assert_eq!(codes("[workpiece]\nfixed_point = \"0 0 0 mm\"\n"), ["missing-key"]);
-    assert_eq!(codes("[workpiece]\nexpansion = \"10800 um/(m K)\"\n"), ["large-expansion"]);
+    assert_eq!(codes("[workpiece]\nexpansion = \"10800 um/(m K)\"\n"), ["impossible-value"]);
 }

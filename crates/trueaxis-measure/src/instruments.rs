@@ -2,6 +2,7 @@
 
 pub mod drift;
 pub mod instrument;
+mod judged;
 mod kind;
 pub mod material;
 mod motion;

@@ -14,10 +14,11 @@ use super::collide::{BodyModel, Mesh, Role, ToolShape, load_stl, triangles_of};
 use std::collections::BTreeMap;
 use std::path::Path;
 use trueaxis_geometry::Vec3;
+use trueaxis_input::plausible::Quantity;
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, Place, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::chain::Link;
-use trueaxis_machine::file::{read_pose, read_shape, read_tool_shape, read_vector_mm};
+use trueaxis_machine::file::{read_pose, read_shape, read_tip, read_tool_shape};
 use trueaxis_machine::models::{Shape, ToolSegment};
 use trueaxis_nc::moves::{Axis, Frame, Position};
 use trueaxis_nc::{Control, OwnCode, Program, Settings, sinumerik};
@@ -385,17 +386,17 @@ fn read_tool(section: &Section<'_>, machine: &Machine) -> Option<SetUpTool> {
     if let Some(name) = section.text("name") {
         name.clone_into(&mut tool.name);
     }
-    let length = section.quantity("length", Dimension::Length);
+    let length = section.quantity_of("length", Quantity::ToolLength);
     if let Some(length_mm) = length {
         tool.tip_mm = Vec3::new(0.0, 0.0, -length_mm);
     }
-    if let Some(tip_mm) = section.get("tip").and_then(|item| read_vector_mm(&item)) {
+    if let Some(tip_mm) = section.get("tip").and_then(|item| read_tip(&item)) {
         tool.tip_mm = tip_mm;
     } else if length.is_none() && section.get("assembly").is_none() {
         let message = "the tool has no length".to_owned();
         section.error("missing-value", message, "length = \"100 mm\", or assembly, or tip");
     }
-    tool.diameter_mm = section.quantity("diameter", Dimension::Length).or(tool.diameter_mm);
+    tool.diameter_mm = section.quantity_of("diameter", Quantity::Diameter).or(tool.diameter_mm);
     if tool.diameter_mm.is_some_and(|d| d <= 0.0) || length.is_some_and(|l| l < 0.0) {
         let message =
             "the diameter of a tool is positive and its length is not negative".to_owned();

@@ -1,5 +1,6 @@
 //! An answer as one JSON document.
 
+use crate::finite::first_not_finite;
 use schemars::generate::SchemaSettings;
 use schemars::transform::transform_subschemas;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -8,11 +9,31 @@ use serde_json::Value;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// The JSON of a document: its fields in their order, numbers in full double precision; a number that is not
-/// finite is null.
+/// The entry of a document with a number that is not finite; such a document is no answer.
+const NOT_FINITE: &str = "not_finite";
+
+/// The JSON of a document: its fields in their order, numbers in full double precision. JSON has no number that is
+/// not finite: a document with one says where it is, see [`not_finite`].
 pub fn document(answer: &impl Serialize) -> Value {
     // why: the documents are structures with texts as keys, which always have a JSON form.
-    serde_json::to_value(answer).expect("a document of texts, numbers and lists")
+    let mut document =
+        serde_json::to_value(answer).expect("a document of texts, numbers and lists");
+    if let (Some(entries), Some(place)) = (document.as_object_mut(), first_not_finite(answer)) {
+        entries.insert(NOT_FINITE.to_owned(), Value::String(place));
+    }
+    document
+}
+
+/// Where a document has a number that is not finite, such as `axes.0.mean_um`.
+pub fn not_finite(document: &Value) -> Option<&str> {
+    match document {
+        Value::Object(entries) => {
+            let own = entries.get(NOT_FINITE).and_then(Value::as_str);
+            own.or_else(|| entries.values().find_map(not_finite))
+        }
+        Value::Array(items) => items.iter().find_map(not_finite),
+        _ => None,
+    }
 }
 
 /// A document's name with its JSON Schema: keys, types and, from the comments in the source, meanings and units.

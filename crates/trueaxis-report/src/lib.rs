@@ -15,13 +15,15 @@
 //! It knows no word of the field: what a figure means stands with who has computed it.
 
 mod document;
+mod finite;
 pub mod numbers;
 mod page;
 mod pictures;
 pub mod plots;
 mod report;
 
-pub use document::{Keyed, NamedSchema, document, named_schema};
+pub use document::{Keyed, NamedSchema, document, named_schema, not_finite};
+pub use finite::first_not_finite;
 pub use pictures::{Band, Picture, Polar, PolarLine, Scatter};
 pub use plots::DrawingError;
 pub use report::{Columns, Figure, Item, Place, Report, Row, Section, Standing, Table, Verdict};

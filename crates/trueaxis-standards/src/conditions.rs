@@ -7,6 +7,7 @@ use geometry::Geometry;
 use probing::ProbingTest;
 use std::path::Path;
 use trueaxis_geometry::Vec3;
+use trueaxis_input::plausible::{Limits, Quantity, Standing};
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, MeasuredValue, Section, SourceText};
 
 /// Limits for temperatures of air and machine, °C; a value outside is in another unit.
@@ -78,6 +79,8 @@ pub struct Conditions {
     pub test: Option<Geometry>,
     /// The probing test (ISO 230-10).
     pub probing: Option<ProbingTest>,
+    /// What readings may be.
+    pub limits: Limits,
 }
 
 /// Reads a file of conditions; without one, or if it cannot be read, nothing is known.
@@ -107,6 +110,7 @@ fn read_root(root: &Section<'_>) -> Conditions {
     let temperature = root.get("temperature");
     let measured = temperature.and_then(|item| item.measured(Dimension::Temperature));
     if let (Some(item), Some(value)) = (temperature, measured)
+        && item.limits().standing(Quantity::Temperature, value.value) != Standing::Plausible
         && let Some(hint) = unsound_temperature(value.value)
     {
         let message = format!("{} °C is not a possible temperature of a machine", value.value);
@@ -126,6 +130,7 @@ fn read_root(root: &Section<'_>) -> Conditions {
         circle_at: circle.1,
         test: root.section("test", geometry::read).flatten(),
         probing: root.section("probing", probing::read),
+        limits: root.limits(),
         edges_mm: edges.flatten().map(|[x, y, z]| Vec3::new(x, y, z)),
     }
 }

@@ -40,6 +40,7 @@
 
 pub mod conditions;
 pub mod coverage;
+mod deviations;
 pub mod form;
 pub mod import;
 pub mod iso230_1;
@@ -197,6 +198,9 @@ impl Evaluated {
 /// Evaluates readings by a standard; `None` with errors in `problems`.
 pub fn evaluate(request: &Request<'_>, problems: &mut Diagnostics) -> Option<Evaluated> {
     let Request { file, text, conditions, .. } = *request;
+    if !deviations::are_possible(request, problems) {
+        return None;
+    }
     match request.standard {
         Standard::Iso230_2 | Standard::Gbt17421_2 | Standard::Vdi3441 | Standard::B5_54 => {
             let measurement = iso230_2::read(file, text, problems)?;

@@ -92,7 +92,7 @@ use std::path::{Path, PathBuf};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_motion::{CONTROLS, control_named};
 use trueaxis_nc::Control;
-use trueaxis_report::{DrawingError, Report, document};
+use trueaxis_report::{DrawingError, Report, document, not_finite};
 
 /// Receives the part that is done, 0 to 1.
 pub type Tell<'a> = &'a (dyn Fn(f64) + Sync + 'a);
@@ -233,7 +233,17 @@ pub fn ask<Q: Question>(
     let input = question.read(files, problems).filter(|_| !problems.has_errors())?;
     let answer = question.answer(input, progress, problems)?;
     let usable = !problems.has_errors() || answer.in_spite_of_errors().is_some();
-    usable.then_some(answer)
+    (usable && is_finite(&answer, problems)).then_some(answer)
+}
+
+/// Whether every number of an answer is one: JSON has no other, and no user can act on it.
+pub fn is_finite(answer: &impl Answer, problems: &mut Diagnostics) -> bool {
+    let document = answer.document(problems);
+    let Some(entry) = not_finite(&document) else { return true };
+    let message = format!("`{entry}` of the answer is not a finite number");
+    let hint = "a value of the input is probably far too large or too small: check its units and exponents";
+    problems.error("not-finite-result", Place::whole(entry), message, hint);
+    false
 }
 
 /// A document with what was found in the files, in the order in which it was found.

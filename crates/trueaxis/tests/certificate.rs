@@ -127,6 +127,7 @@ impl Bench {
             instruments: vec![tracker(machine, 0.0), tracker(machine, 150.0)],
             tables: vec![Vec::new(); 2],
             stages: Default::default(),
+            limits: Default::default(),
         };
         let stations = (0..stations).map(|_| inside(random, machine)).collect();
         // Without a choice among the terms: what is omitted by chance has no uncertainty.

@@ -95,6 +95,7 @@ fn campaign(name: &str, terms: Vec<Term>, kind: Kind) -> Campaign {
         instruments,
         tables: vec![Vec::new()],
         stages: Default::default(),
+        limits: Default::default(),
         machine,
     }
 }

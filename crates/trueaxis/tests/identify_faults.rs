@@ -144,6 +144,7 @@ fn campaign(plan: Plan) -> Campaign {
         instruments,
         tables: vec![Vec::new()],
         stages: Default::default(),
+        limits: Default::default(),
         machine,
     }
 }

@@ -541,7 +541,7 @@ fn every_fault_of_a_material_is_reported() {
         (temperature.to_owned(), "missing-key"),
         (expansion.to_owned(), "missing-key"),
         (format!("material_expansion = \"13.2 um\"\n{temperature}"), "wrong-unit"),
-        (format!("material_expansion = \"1320 um/(m K)\"\n{temperature}"), "impossible-expansion"),
+        (format!("material_expansion = \"1320 um/(m K)\"\n{temperature}"), "impossible-value"),
         (
             format!("material_expansion = \"13.2 ± -1 um/(m K)\"\n{temperature}"),
             "negative-uncertainty",

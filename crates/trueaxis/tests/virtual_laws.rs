@@ -63,6 +63,7 @@ fn campaign(machine: &Machine, instrument: Instrument) -> Campaign {
         instruments: vec![instrument],
         tables: vec![Vec::new()],
         stages: Default::default(),
+        limits: Default::default(),
     }
 }
 

@@ -179,7 +179,7 @@ impl Records {
         problems: &mut Diagnostics,
     ) -> Option<()> {
         let of = (&campaign.instruments[..], index);
-        let read = read_table(table, &campaign.machine, of, problems)?;
+        let read = read_table(table, (&campaign.machine, &campaign.limits), of, problems)?;
         self.tables.push((self.readings.len(), table.file.clone()));
         self.readings.append(&read);
         Some(())

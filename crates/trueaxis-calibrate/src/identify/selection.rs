@@ -14,7 +14,7 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 use trueaxis_geometry::statistics::SplitMix64;
 use trueaxis_measure::measure::Readings;
@@ -326,11 +326,16 @@ fn models(sums: &Sums, candidates: &Candidates) -> Vec<Model> {
     found
 }
 
+/// JSON has no infinite number; the schema of the field says what `null` means.
+fn null_if_infinite<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    Some(value).filter(|v| v.is_finite()).serialize(serializer)
+}
+
 /// How well a threshold predicts.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Score {
     /// Least |z| of a term that is kept; ∞ (null): none is, 0: all are. Unit: 1.
-    #[serde(rename = "least_z")]
+    #[serde(rename = "least_z", serialize_with = "null_if_infinite")]
     #[schemars(with = "Option<f64>")]
     pub threshold: f64,
     /// Number of candidate terms that are kept.

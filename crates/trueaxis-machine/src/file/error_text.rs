@@ -9,7 +9,8 @@ use crate::errors::{
     Component, Curve, ErrorKind, ErrorName, Extrapolation, Harmonic, Interpolation, Measurement,
     StatedError, Uncertainty,
 };
-use trueaxis_input::{CsvTable, Diagnostics, Dimension, Item, Section};
+use trueaxis_input::plausible::{Limits, Quantity};
+use trueaxis_input::{CsvTable, Diagnostics, Dimension, Item, Place, Section};
 
 /// Highest accepted order of a Fourier series; harmonics of higher order are noise.
 const HIGHEST_ORDER: f64 = 1e4;
@@ -20,10 +21,6 @@ const HIGHEST_ERROR: f64 = 1e12;
 pub fn dimension_of(component: Component) -> Dimension {
     if component.is_rotation() { Dimension::Angle } else { Dimension::Length }
 }
-
-/// A location error beyond these is a wrong unit sooner than a machine.
-const LARGE_MM: f64 = 10.0;
-const LARGE_RAD: f64 = 0.01;
 
 /// `[location]`: `EC0Y = "12 ± 1 urad"`.
 pub fn read_location(section: &Section<'_>, bodies: &mut [ChainBody]) {
@@ -57,12 +54,11 @@ pub fn read_location(section: &Section<'_>, bodies: &mut [ChainBody]) {
             let message = format!("{name} is stated twice");
             section.error_at(place, "duplicate-error", message, "keep one of the two spellings");
         }
-        if let Some(value) = item.measured(dimension_of(name.component)) {
-            let largest = if name.component.is_rotation() { LARGE_RAD } else { LARGE_MM };
-            if value.value.abs() > largest {
-                let message = format!("{name} is larger than 10 mm or 10 mrad");
-                item.warn("large-error", message, "check the unit: um and urad are usual");
-            }
+        let quantity = match name.component.is_rotation() {
+            true => Quantity::LocationAngle,
+            false => Quantity::LocationError,
+        };
+        if let Some(value) = item.measured_of(quantity) {
             let mut stated = StatedError::constant(value.value, value.u);
             stated.measured = measured.clone();
             *slot = Some(stated);
@@ -87,6 +83,7 @@ pub fn read_motion(section: &Section<'_>, axis: &Axis, body: &mut ChainBody, tab
         habits: TableHabits {
             interpolation: read_interpolation(section).unwrap_or(Interpolation::NotAKnot),
             outside: read_outside(section).unwrap_or(Extrapolation::Error),
+            limits: section.limits(),
         },
         u: read_uncertainties(section),
         measured: read_measurement(section),
@@ -116,7 +113,11 @@ pub fn read_motion(section: &Section<'_>, axis: &Axis, body: &mut ChainBody, tab
                 "keep either the column of the table or the entry",
             );
         }
-        body.motion[name.component as usize] = reader.read_curve(name, &item);
+        let read = reader.read_curve(name, &item);
+        if let Some(stated) = &read {
+            section.take_over(reader.judge(name, stated, &item));
+        }
+        body.motion[name.component as usize] = read;
     }
 }
 
@@ -125,11 +126,31 @@ impl MotionReader<'_> {
         self.u[usize::from(component.is_rotation())].map(Uncertainty::Constant)
     }
 
+    /// What is wrong with the size of an error motion over the travel of its axis; tables are judged by row.
+    fn judge(&self, name: ErrorName, stated: &StatedError, item: &Item<'_>) -> Diagnostics {
+        const STATIONS: u32 = 64;
+        let mut problems = Diagnostics::new();
+        if matches!(stated.mean, Curve::Table { .. }) {
+            return problems;
+        }
+        let (low, high) = match self.axis.travel {
+            Travel::Between(low, high) => (low, high),
+            _ => (0.0, self.furthest_from(0.0)),
+        };
+        let at = |i: u32| low + (high - low) * f64::from(i) / f64::from(STATIONS);
+        let values = (0..=STATIONS).filter_map(|i| stated.at(at(i), 1.0).ok());
+        let largest = values.fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
+        let name = name.to_string();
+        let column = (name.as_str(), &[largest][..]);
+        judge_error(&self.habits.limits, self.axis, column, |_| item.place(), &mut problems);
+        problems
+    }
+
     /// `EXX = "3 um"` or `EXX = { polynomial | fourier | table …, u, reversal }`.
     fn read_curve(&self, name: ErrorName, item: &Item<'_>) -> Option<StatedError> {
         let dimension = dimension_of(name.component);
         if !item.is_table() {
-            let value = item.measured(dimension)?;
+            let value = item.measured_unjudged(dimension)?;
             let mut stated = StatedError::constant(value.value, value.u);
             stated.u = stated.u.or_else(|| self.general_u(name.component));
             stated.measured = self.measured.clone();
@@ -259,6 +280,7 @@ impl MotionReader<'_> {
         let habits = TableHabits {
             interpolation: read_interpolation(section).unwrap_or(self.habits.interpolation),
             outside: read_outside(section).unwrap_or(self.habits.outside),
+            ..self.habits
         };
         let table = self.load(section, &item)?;
         let mut problems = Diagnostics::new();
@@ -309,6 +331,25 @@ impl MotionReader<'_> {
         let usable = !problems.has_errors();
         section.take_over(problems);
         usable.then_some(table)
+    }
+}
+
+/// Reports values of an error motion of that axis that are no errors of a machine; those in radians are rotations.
+pub fn judge_error(
+    limits: &Limits,
+    axis: &Axis,
+    (name, values): (&str, &[f64]),
+    place: impl Fn(usize) -> Place,
+    problems: &mut Diagnostics,
+) -> bool {
+    let error = name.trim_start_matches("u_").get(..3).and_then(ErrorName::parse);
+    let travel_mm = match axis.travel {
+        Travel::Between(low, high) if axis.kind == AxisKind::Linear => high - low,
+        _ => 0.0,
+    };
+    match error.is_some_and(|e| e.component.is_rotation()) {
+        true => limits.judge_column(Quantity::AngleError, (name, values), place, problems),
+        false => limits.judge_error_column(travel_mm, (name, values), place, problems),
     }
 }
 
@@ -390,7 +431,7 @@ fn read_measurement(section: &Section<'_>) -> Measurement {
     let read = section.section("measured", |m| Measurement {
         instrument: m.text("instrument").map(str::to_owned),
         date: m.get("date").and_then(|d| d.date_or_text()),
-        temperature_celsius: m.quantity("temperature", Dimension::Temperature),
+        temperature_celsius: m.quantity_of("temperature", Quantity::Temperature),
     });
     read.unwrap_or_default()
 }

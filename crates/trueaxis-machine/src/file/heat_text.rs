@@ -12,10 +12,8 @@ use crate::heat::{
     StructureModel, Workpiece, measured_celsius,
 };
 use trueaxis_geometry::Vec3;
+use trueaxis_input::plausible::Quantity;
 use trueaxis_input::{Dimension, Item, MeasuredValue, Section};
-
-/// Nothing that holds a scale or a part grows by more, 1/K (zinc 30e-6, plastics 200e-6).
-const LARGE_EXPANSION: f64 = 300e-6;
 
 /// Heat sources closer than this cannot be separated, mm.
 const CLOSEST_MM: f64 = 1.0;
@@ -65,14 +63,7 @@ pub fn read_heat(root: &Section<'_>, axes: &[Axis], bodies: &[ChainBody]) -> Hea
 }
 
 fn expansion(item: &Item<'_>) -> Option<MeasuredValue> {
-    let value = item.measured(Dimension::Expansion)?;
-    if value.value.abs() > LARGE_EXPANSION {
-        let message =
-            "the coefficient of expansion is larger than that of any scale, screw or workpiece"
-                .to_owned();
-        item.warn("large-expansion", message, "steel has 11.5 um/(m K), aluminium 23.5");
-    }
-    Some(value)
+    item.measured_of(Quantity::Expansion)
 }
 
 /// `sensors = { scale_x = "0 mm", scale_x_end = "3500 mm" }`.
@@ -117,7 +108,7 @@ fn read_scale(
 
 /// The temperature at which the positioning error was measured: said here or there.
 fn table_temperature(section: &Section<'_>, axis: &Axis, body: &ChainBody) -> f64 {
-    let stated = section.quantity("table_temperature", Dimension::Temperature);
+    let stated = section.quantity_of("table_temperature", Quantity::Temperature);
     let along = [Component::X, Component::Y, Component::Z];
     let main = along.into_iter().max_by(|a, b| {
         axis.direction[*a as usize].abs().total_cmp(&axis.direction[*b as usize].abs())
@@ -220,7 +211,7 @@ fn read_structure(
     name: ErrorName,
     index: ErrorIndex,
 ) -> Option<StructureModel> {
-    let reference = section.quantity("reference", Dimension::Temperature);
+    let reference = section.quantity_of("reference", Quantity::Temperature);
     let dimension = match dimension_of(name.component) {
         Dimension::Angle => Dimension::AnglePerKelvin,
         _ => Dimension::LengthPerKelvin,

@@ -3,6 +3,7 @@
 use crate::chain::Link;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Pose, rotation};
+use trueaxis_input::plausible::Quantity;
 use trueaxis_input::{Dimension, Item, QuantityError, Unit, parse_quantity};
 
 const HINT: &str = "write \"x y z mm\", \"shift x y z mm\" or \"turn Z 15 deg\", or a list of \
@@ -19,7 +20,12 @@ pub fn read_pose(item: &Item<'_>) -> Option<Link> {
 /// Three lengths with one unit: `"0 0 -100 mm"`.
 pub fn read_vector_mm(item: &Item<'_>) -> Option<Vec3> {
     let words: Vec<&str> = item.text()?.split_whitespace().collect();
-    vector(item, &words)
+    vector(item, &words).filter(|v| item.is_possible(Quantity::Length, v.norm()))
+}
+
+/// The tip of a tool, as far from the gauge line as a tool is long.
+pub fn read_tip(item: &Item<'_>) -> Option<Vec3> {
+    read_vector_mm(item).filter(|v| item.is_possible(Quantity::ToolLength, v.norm()))
 }
 
 /// A direction of any length: `"0 1 1"`; returned as a unit vector.
@@ -87,8 +93,8 @@ fn vector(item: &Item<'_>, words: &[&str]) -> Option<Vec3> {
         let value = parse_quantity(number, Dimension::Ratio).and_then(|v| unit.checked(v));
         match value {
             Ok(value) => *slot = value,
-            Err(QuantityError::TooLarge(_)) => {
-                let e = QuantityError::TooLarge(number.to_owned());
+            Err(QuantityError::TooLarge(_, d)) => {
+                let e = QuantityError::TooLarge(number.to_owned(), d);
                 item.error(e.code(), e.to_string(), &e.hint());
                 return None;
             }

@@ -1,12 +1,13 @@
 //! Tables of error motions: columns of a CSV file to curves.
 
-use super::error_text::dimension_of;
+use super::error_text::{dimension_of, judge_error};
 use crate::axis::{Axis, AxisKind, Travel};
 use crate::errors::{
     Component, Curve, ErrorKind, ErrorName, Extrapolation, Interpolation, Spline, SplineError,
     Uncertainty,
 };
 use std::f64::consts::TAU;
+use trueaxis_input::plausible::Limits;
 use trueaxis_input::{CsvColumn, CsvTable, Diagnostics, Dimension, Place, Unit};
 
 /// Two positions closer than this, in mm or rad, are one position with two values.
@@ -20,11 +21,12 @@ pub fn position_dimension(kind: AxisKind) -> Dimension {
     }
 }
 
-/// Interpolation of a table, and its continuation outside.
+/// Interpolation of a table, its continuation outside, and what its values may be.
 #[derive(Clone, Copy)]
 pub struct TableHabits {
     pub interpolation: Interpolation,
     pub outside: Extrapolation,
+    pub limits: Limits,
 }
 
 /// The error motions of one axis over checked positions.
@@ -129,7 +131,7 @@ impl<'a> ErrorTable<'a> {
     }
 
     fn curve(&self, place: &Place, values: &[f64], problems: &mut Diagnostics) -> Option<Curve> {
-        let TableHabits { interpolation, outside } = self.habits;
+        let TableHabits { interpolation, outside, .. } = self.habits;
         match Spline::new(&self.positions, values, interpolation) {
             Ok(spline) => Some(Curve::Table { spline, outside }),
             Err(error) => {
@@ -258,6 +260,11 @@ impl<'a> ErrorTable<'a> {
         };
         let dimension = dimension_of(parsed.component);
         let values = in_inner_unit(self.table, column, dimension, problems);
+        let (limits, table) = (self.habits.limits, self.table);
+        let values = values.filter(|values| {
+            let place = |row| table.row_place(row);
+            judge_error(&limits, self.axis, (&column.name, values), place, problems)
+        });
         let columns = &mut self.columns[parsed.component as usize];
         let slot = &mut columns.of_role[role as usize];
         if slot.is_some() {

@@ -1,15 +1,11 @@
 //! Conditions: the readings of the temperature sensors, typed or from a log.
 
 use std::sync::Arc;
+use trueaxis_input::plausible::{Limits, Quantity, Standing};
 use trueaxis_input::{
     CsvTable, Diagnostic, Diagnostics, Dimension, Place, Section, Severity, Unit, parse_quantity,
 };
 
-/// Nothing in a workshop is colder or warmer, °C; what is, was written in °F or in the wrong
-/// column.
-const POSSIBLE_CELSIUS: std::ops::RangeInclusive<f64> = -40.0..=150.0;
-/// Warmer than a hall: perhaps °F, °C.
-const WARM_CELSIUS: f64 = 45.0;
 /// Smaller steps between two rows of a log are noise, K.
 const JUMP_K: f64 = 2.0;
 /// No body of a machine warms or cools faster, K/s.
@@ -64,7 +60,7 @@ impl Conditions {
                 sound = false;
                 continue;
             };
-            sound &= found.add(sensor, celsius, place.clone(), problems);
+            sound &= found.add(sensor, celsius, place.clone(), (&Limits::default(), problems));
         }
         sound.then_some(found)
     }
@@ -77,8 +73,9 @@ impl Conditions {
             if found.place.file.is_empty() {
                 found.place = place.clone();
             }
-            if let Some(celsius) = item.quantity(Dimension::Temperature) {
-                found.add(sensor.to_owned(), celsius, place, &mut problems);
+            if let Some(celsius) = item.unjudged(Dimension::Temperature) {
+                let limits = section.limits();
+                found.add(sensor.to_owned(), celsius, place, (&limits, &mut problems));
             }
         }
         section.take_over(problems);
@@ -90,14 +87,14 @@ impl Conditions {
         sensor: String,
         celsius: f64,
         place: Place,
-        problems: &mut Diagnostics,
+        (limits, problems): (&Limits, &mut Diagnostics),
     ) -> bool {
         if self.celsius(&sensor).is_some() {
             let message = format!("sensor `{sensor}` is given twice");
             problems.error("duplicate-sensor", place, message, "keep one of them");
             return false;
         }
-        let sound = check_range(&sensor, celsius, &place, problems);
+        let sound = check_range((&sensor, celsius), &place, limits, problems);
         self.readings.push(Reading { sensor, celsius, place });
         sound
     }
@@ -185,14 +182,20 @@ fn hint_for(word: &str) -> &'static str {
 }
 
 /// Whether a temperature is one of a workshop, °C; an impossible one is an error, a warm one a warning.
-pub fn check_range(sensor: &str, celsius: f64, place: &Place, problems: &mut Diagnostics) -> bool {
-    if !POSSIBLE_CELSIUS.contains(&celsius) {
+pub fn check_range(
+    (sensor, celsius): (&str, f64),
+    place: &Place,
+    limits: &Limits,
+    problems: &mut Diagnostics,
+) -> bool {
+    let standing = limits.standing(Quantity::Temperature, celsius);
+    if standing == Standing::Impossible {
         let message = format!("`{sensor}` reads {celsius} °C, outside the range of machines");
         let hint = "check the unit and the column: °C = (°F − 32)/1.8 = K − 273.15";
         problems.error("impossible-temperature", place.clone(), message, hint);
         return false;
     }
-    if celsius > WARM_CELSIUS {
+    if standing == Standing::Odd && celsius > 0.0 {
         let message = format!("`{sensor}` reads {celsius} °C, warmer than a workshop");
         let hint = "if these are °F: °C = (°F − 32)/1.8";
         problems.warn("warm-temperature", place.clone(), message, hint);
@@ -312,10 +315,13 @@ impl TemperatureLog {
         problems: &mut Diagnostics,
     ) {
         let place = |row: usize| table.row_place(row);
-        let impossible = values.iter().position(|v| !POSSIBLE_CELSIUS.contains(v));
-        let warm = values.iter().position(|v| *v > WARM_CELSIUS);
-        if let Some(row) = impossible.or(warm) {
-            check_range(name, values[row], &place(row), problems);
+        let limits = Limits::default();
+        let first = |wanted: Standing| {
+            let is = |v: &f64| limits.standing(Quantity::Temperature, *v) == wanted;
+            values.iter().position(is)
+        };
+        if let Some(row) = first(Standing::Impossible).or_else(|| first(Standing::Odd)) {
+            check_range((name, values[row]), &place(row), &limits, problems);
         }
         if let Some((from, to)) = self.stuck(values) {
             let message = match to - from == values.len() {

@@ -14,6 +14,7 @@ use crate::unknowns::term::{Shape, Term};
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
 use trueaxis_input::foreign;
+use trueaxis_input::plausible::{Limits, Quantity};
 use trueaxis_input::{CsvTable, Diagnostics, Dimension, Files, Item, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::AxisKind;
@@ -40,6 +41,8 @@ pub struct Campaign {
     pub conditions: Option<Conditions>,
     /// The machine file.
     pub machine_path: PathBuf,
+    /// What its readings may be.
+    pub limits: Limits,
     /// The unknown errors of the machine.
     pub terms: Vec<Term>,
     /// The instruments as they are set up.
@@ -72,7 +75,8 @@ impl Campaign {
                 let table = foreign::mapped_text(&self.files, path, what, problems)
                     .map(|text| CsvTable::parse(&path.display().to_string(), &text, problems));
                 let read = table.and_then(|table| {
-                    read_table(&table, &self.machine, (&self.instruments, index), problems)
+                    let on = (&self.machine, &self.limits);
+                    read_table(&table, on, (&self.instruments, index), problems)
                 });
                 match read {
                     Some(read) => all.append(&read),
@@ -173,6 +177,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Campaign> {
         machine,
         conditions,
         machine_path,
+        limits: root.limits(),
         terms,
         instruments,
         tables,
@@ -416,9 +421,12 @@ fn read_reference(item: &Item<'_>) -> Option<Reference> {
 
 /// One u for all channels or a list of three.
 fn read_noise(item: &Item<'_>, kind: Kind) -> Option<[f64; 3]> {
-    let dimension = if kind.sight().is_angle() { Dimension::Angle } else { Dimension::Length };
+    let noise = if kind.sight().is_angle() { Quantity::AngularNoise } else { Quantity::Noise };
     let one = |item: &Item<'_>| {
-        let u = item.quantity(dimension)?;
+        // Below zero is another mistake than above the range.
+        let dimension = noise.dimension();
+        let u =
+            item.unjudged(dimension).filter(|u| *u <= 0.0).or_else(|| item.quantity_of(noise))?;
         if u <= 0.0 {
             let message = "a reading without noise would outweigh all others".to_owned();
             item.error(

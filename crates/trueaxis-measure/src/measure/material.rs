@@ -4,6 +4,7 @@ use super::Kind;
 use crate::instruments::MaterialCompensation;
 use crate::instruments::instrument::{SetupError, SetupUnknown};
 use trueaxis_geometry::Vec3;
+use trueaxis_input::plausible::Quantity;
 use trueaxis_input::{Diagnostics, Dimension, Item, MeasuredValue, Section, parse_quantity};
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::read_vector_mm;
@@ -12,8 +13,6 @@ use trueaxis_machine::heat::{Conditions, check_range};
 const EXPANSION: &str = "material_expansion";
 const TEMPERATURE: &str = "material_temperature";
 const DATUM: &str = "material_datum";
-/// No material grows more, or shrinks, 1/K.
-const POSSIBLE_PER_K: std::ops::RangeInclusive<f64> = -1e-6..=50e-6;
 
 /// The settings of a laser for a material; `None` if there is a problem, `Some(None)` without one.
 pub(super) fn read_material(
@@ -84,13 +83,7 @@ fn read_expansion(item: &Item<'_>, machine: &Machine) -> Option<MeasuredValue> {
         }
         return workpiece.map(|w| w.expansion_per_k);
     }
-    let value = item.measured(Dimension::Expansion)?;
-    if !POSSIBLE_PER_K.contains(&value.value) {
-        let message = format!("{:.1} µm/(m·K) is no solid material", value.value * 1e6);
-        item.error("impossible-expansion", message, "steel has 11.5 um/(m K), aluminium 23.5");
-        return None;
-    }
-    Some(value)
+    item.measured_of(Quantity::Expansion)
 }
 
 /// `"30.5 ± 0.1 degC"`, or a sensor of the machine, `"workpiece"` or `"workpiece ± 0.2 degC"`.
@@ -104,9 +97,10 @@ fn read_temperature(
         text.trim_start().starts_with(|c: char| c.is_ascii_digit() || "+-.−".contains(c))
     });
     if is_number {
-        let celsius = item.measured(Dimension::Temperature)?;
+        let celsius = item.measured_unjudged(Dimension::Temperature)?;
         let mut problems = Diagnostics::new();
-        check_range(TEMPERATURE, celsius.value, &item.place(), &mut problems);
+        let reading = (TEMPERATURE, celsius.value);
+        check_range(reading, &item.place(), &item.limits(), &mut problems);
         let sound = !problems.has_errors();
         section.take_over(problems);
         return sound.then_some((celsius, None));

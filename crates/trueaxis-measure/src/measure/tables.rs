@@ -4,6 +4,7 @@ use super::drift::check_time;
 use super::{Readings, fill_motion};
 use crate::instruments::Instrument;
 use std::collections::BTreeMap;
+use trueaxis_input::plausible::Limits;
 use trueaxis_input::{CsvTable, Diagnostics, Place};
 use trueaxis_machine::Machine;
 
@@ -13,12 +14,13 @@ const MOST_NAMED: usize = 3;
 /// Reads the table of an instrument; rows that are copies of others count once.
 pub fn read_table(
     table: &CsvTable,
-    machine: &Machine,
+    (machine, limits): (&Machine, &Limits),
     (instruments, index): (&[Instrument], usize),
     problems: &mut Diagnostics,
 ) -> Option<Readings> {
     let (instrument, number) = (&instruments[index], u32::try_from(index).ok()?);
     let read = Readings::parse(table, machine, instrument, number, problems)?;
+    read.judge(table, (machine, instrument), limits, problems);
     let place = Place::whole(&table.file);
     if read.is_empty() {
         let message = format!("the table of {} has no rows", instrument.name);

@@ -1,6 +1,7 @@
 //! `[tool_setter]`: where and how tools are measured on the machine.
 
 use trueaxis_geometry::Vec3;
+use trueaxis_input::plausible::Quantity;
 use trueaxis_input::{Dimension, Section};
 use trueaxis_machine::file::read_vector_mm;
 
@@ -60,7 +61,7 @@ pub(super) fn read_setter(section: &Section<'_>) -> Option<ToolSetter> {
     let growth_within_mm = growth.then(|| length("growth_within", 0.0, true));
     let hint = "the diameter of its cylinder, such as \"10 mm ± 1 um\"";
     let diameter = section.require("diameter", hint).and_then(|i| {
-        let value = i.measured(Dimension::Length)?;
+        let value = i.measured_of(Quantity::Diameter)?;
         if value.value <= 0.0 {
             i.error("bad-size", "`diameter` must be more than 0".to_owned(), hint);
             return None;

@@ -1,5 +1,6 @@
 //! What is known of the state of a tool: measured size, limits of wear and breakage, life, sister tool.
 
+use trueaxis_input::plausible::Quantity;
 use trueaxis_input::{Dimension, Item, Section};
 
 /// A size with its standard uncertainty, mm.
@@ -88,7 +89,7 @@ pub(super) fn read_state(section: &Section<'_>) -> ToolState {
 }
 
 fn size(item: &Item<'_>) -> Option<MeasuredSize> {
-    let value = item.measured(Dimension::Length)?;
+    let value = item.measured_of(Quantity::ToolLength)?;
     if value.value <= 0.0 {
         let message = "a measured size is more than 0".to_owned();
         item.error("bad-size", message, "the whole length or diameter, not the deviation");
@@ -98,7 +99,8 @@ fn size(item: &Item<'_>) -> Option<MeasuredSize> {
 }
 
 fn positive(item: &Item<'_>, dimension: Dimension) -> Option<f64> {
-    let value = item.quantity(dimension)?;
+    // A tool cuts some km.
+    let value = item.unjudged(dimension)?;
     if value <= 0.0 {
         item.error("bad-size", "the limit must be more than 0".to_owned(), "such as \"50 um\"");
         return None;
@@ -122,7 +124,7 @@ fn read_life(section: &Section<'_>) -> Option<ToolLife> {
     let allowed = positive(&item, dimension)?;
     let used = match used {
         Some(used) => {
-            let value = used.quantity(dimension)?;
+            let value = used.unjudged(dimension)?;
             if value < 0.0 {
                 used.error("bad-size", "`used` is 0 or more".to_owned(), "such as \"20 min\"");
                 return None;

@@ -9,6 +9,7 @@ use super::temperatures::{RunningTemperatures, StudyTemperatures};
 use super::{Index, Setting};
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
+use trueaxis_input::plausible::Quantity;
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
@@ -289,7 +290,7 @@ fn read_tool(root: &Section<'_>, machine: Machine, piece: &TestPieceFile) -> Mac
             s.error("one-tool", message, "keep one of `name` and `length`");
         }
         let named = name.and_then(|item| named_length(&item, &machine, piece));
-        let length_mm = length.and_then(|item| item.quantity(Dimension::Length)).or(named);
+        let length_mm = length.and_then(|item| item.quantity_of(Quantity::ToolLength)).or(named);
         length_mm.map(|length_mm| Vec3::new(0.0, 0.0, -length_mm))
     });
     match tip.flatten() {

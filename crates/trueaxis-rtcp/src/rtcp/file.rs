@@ -8,11 +8,12 @@ use super::study::{ReadingSet, RtcpStudy, SAME_RAD, spread};
 use super::table::{LARGE_MM, read_rows, read_table};
 use std::path::Path;
 use trueaxis_geometry::Vec3;
+use trueaxis_input::plausible::Quantity;
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::AxisKind;
 use trueaxis_machine::errors::BodyName;
-use trueaxis_machine::file::{machine_of, read_vector_mm};
+use trueaxis_machine::file::{machine_of, read_tip, read_vector_mm};
 use trueaxis_machine::twist::Reference;
 use trueaxis_measure::instruments::instrument::{SetupError, SetupUnknown, Sight};
 use trueaxis_measure::measure::path::Placing;
@@ -156,7 +157,7 @@ fn read_angles(item: &Item<'_>) -> Option<bool> {
 /// `[tool]`: the tip, and how well it is known.
 fn read_tool(section: &Section<'_>, machine: &mut Machine) -> Option<[f64; 2]> {
     if let Some(tip) = section.get("tip") {
-        *machine = machine.clone().with_tip(read_vector_mm(&tip)?);
+        *machine = machine.clone().with_tip(read_tip(&tip)?);
     }
     let u = |key: &str| {
         let Some(item) = section.get(key) else { return Some(0.0) };
@@ -282,7 +283,8 @@ fn read_set(
     let ball_mm = section.require("ball", hint).and_then(|i| read_vector_mm(&i));
     let noise = section.require("noise", "the standard uncertainty of a reading, such as \"1 um\"");
     let noise_mm = noise.and_then(|item| {
-        let u = item.quantity(Dimension::Length)?;
+        let u = item.unjudged(Dimension::Length).filter(|u| *u <= 0.0);
+        let u = u.or_else(|| item.quantity_of(Quantity::Noise))?;
         if u <= 0.0 {
             let message = "a reading without noise would outweigh all others".to_owned();
             item.error("no-noise", message, "such as \"1 um\"");

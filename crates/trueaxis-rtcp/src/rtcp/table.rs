@@ -3,6 +3,7 @@
 use super::study::{ReadingSet, Row, RtcpStudy, command_of};
 use std::collections::BTreeMap;
 use std::path::Path;
+use trueaxis_input::plausible::{Limits, Quantity};
 use trueaxis_input::{CsvColumn, CsvTable, Diagnostics, Dimension, Place, Section, Unit};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
@@ -128,7 +129,7 @@ pub(super) fn read_rows(
     }
     let sound = !problems.has_errors();
     if sound {
-        check_rows(study, &set, table, &mut problems);
+        check_rows(study, &set, (table, &section.limits()), &mut problems);
     }
     if !columns.channels.is_empty() {
         set.rows = without_copies(&set.rows, table, &mut problems);
@@ -175,11 +176,21 @@ fn without_copies(rows: &[Row], table: &CsvTable, problems: &mut Diagnostics) ->
 const MOST_NAMED: usize = 3;
 
 /// Readings that no indicator reads, poses that no control reaches.
-fn check_rows(study: &RtcpStudy, set: &ReadingSet, table: &CsvTable, problems: &mut Diagnostics) {
+fn check_rows(
+    study: &RtcpStudy,
+    set: &ReadingSet,
+    (table, limits): (&CsvTable, &Limits),
+    problems: &mut Diagnostics,
+) {
     if set.rows.is_empty() || table.rows() > MOST_ROWS {
         let message = format!("{} rows of readings", table.rows());
         let hint = format!("1 to {MOST_ROWS}");
         return problems.error("bad-count", Place::whole(&table.file), message, &hint);
+    }
+    for c in 0..3 {
+        let values: Vec<f64> = set.rows.iter().map(|r| r.read_mm[c].unwrap_or(0.0)).collect();
+        let name = ["x", "y", "z"][c];
+        limits.judge_column(Quantity::Deviation, (name, &values), |i| table.row_place(i), problems);
     }
     let size = |row: &Row| row.read_mm.iter().flatten().fold(0.0, |m: f64, v| m.max(v.abs()));
     let largest =

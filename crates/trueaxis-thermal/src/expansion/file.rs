@@ -2,13 +2,12 @@
 
 use super::{LaserKeys, Run, Runs, ScaleKeys};
 use std::path::Path;
+use trueaxis_input::plausible::{Quantity, Standing};
 use trueaxis_input::{CsvTable, Diagnostics, Dimension, Files, Section, SourceText, Unit};
 use trueaxis_machine::heat::REFERENCE_CELSIUS;
 
 /// Temperatures nearer than this say little about an expansion, K.
 const LITTLE_K: f64 = 1.0;
-/// A scale warmer than this was perhaps written in °F, °C.
-const WARM_CELSIUS: f64 = 45.0;
 
 /// Reads the file of an identification, and the table that it names.
 pub fn read_runs(files: &Files, path: &Path) -> (Option<Runs>, Diagnostics) {
@@ -53,7 +52,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Runs> {
             stated += 1;
             let read = |s: &Section<'_>| {
                 let hint = "of the scale during the run, such as \"29.3 ± 0.1 degC\"";
-                s.require("temperature", hint)?.measured(Dimension::Temperature)
+                s.require("temperature", hint)?.measured_unjudged(Dimension::Temperature)
             };
             let celsius = item.section(&section.path(key), read).flatten();
             temperatures.extend(celsius.map(|t| (key.to_owned(), t)));
@@ -62,9 +61,15 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Runs> {
     let (name, table) = (name?.to_owned(), table?);
     let mut problems = Diagnostics::new();
     let positions_mm = column(&table, "position", &mut problems);
+    let positions = positions_mm.clone().unwrap_or_default();
     let mut runs = Vec::new();
     for (name, celsius) in temperatures {
         let errors_mm = column(&table, &name, &mut problems);
+        if let Some(errors_mm) = &errors_mm {
+            let place = |row| table.row_place(row);
+            let errors = (name.as_str(), errors_mm.as_slice());
+            root.limits().judge_error_column(extent(&positions), errors, place, &mut problems);
+        }
         runs.extend(errors_mm.map(|errors_mm| Run { name, celsius, errors_mm }));
     }
     let positions_mm = positions_mm.unwrap_or_default();
@@ -93,10 +98,12 @@ fn read_scale(root: &Section<'_>, path: &Path) -> ScaleKeys {
         machine: root.text("machine").map(|name| folder.join(name)),
         fixed_mm: root.quantity("fixed_point", Dimension::Length),
         sensor: root.text("sensor").map(str::to_owned),
-        reference_celsius: root.quantity("reference_temperature", Dimension::Temperature),
+        reference_celsius: root
+            .get("reference_temperature")
+            .and_then(|i| i.unjudged(Dimension::Temperature)),
         date: root.get("date").and_then(|d| d.date_or_text()),
     };
-    if keys.reference_celsius.is_some_and(|c| !(-40.0..=150.0).contains(&c)) {
+    if keys.reference_celsius.is_some_and(|c| is_temperature(root, c, Standing::Impossible)) {
         let message = "no machine has this reference_temperature".to_owned();
         root.error("impossible-temperature", message, "°C = (°F − 32)/1.8");
     }
@@ -120,7 +127,7 @@ fn read_laser(root: &Section<'_>) -> LaserKeys {
         LaserKeys {
             instrument: laser.text("instrument").map(str::to_owned),
             u_mm: u,
-            material_per_k: laser.quantity("material_expansion", Dimension::Expansion),
+            material_per_k: laser.quantity_of("material_expansion", Quantity::Expansion),
         }
     });
     read.unwrap_or_default()
@@ -164,6 +171,19 @@ fn column(table: &CsvTable, name: &str, problems: &mut Diagnostics) -> Option<Ve
     None
 }
 
+/// From the lowest to the highest position.
+fn extent(positions_mm: &[f64]) -> f64 {
+    let ends = positions_mm
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)));
+    (ends.1 - ends.0).max(0.0)
+}
+
+/// Whether a temperature stands there, by the ranges of the file.
+fn is_temperature(root: &Section<'_>, celsius: f64, standing: Standing) -> bool {
+    root.limits().standing(Quantity::Temperature, celsius) == standing
+}
+
 fn check(root: &Section<'_>, positions_mm: &[f64], runs: &[Run]) {
     let spread = |values: &[f64]| {
         let (low, high) = values
@@ -194,13 +214,13 @@ fn check(root: &Section<'_>, positions_mm: &[f64], runs: &[Run]) {
         }
         _ => {}
     }
-    for run in runs.iter().filter(|r| (WARM_CELSIUS..=150.0).contains(&r.celsius.value)) {
+    for run in runs.iter().filter(|r| is_temperature(root, r.celsius.value, Standing::Odd)) {
         let celsius = run.celsius.value;
         let message = format!("`{}`: {celsius} °C is warm for a scale", run.name);
         let hint = format!("is it Fahrenheit? that would be {:.1} °C", (celsius - 32.0) / 1.8);
         root.warn("warm-scale", message, &hint);
     }
-    for run in runs.iter().filter(|r| !(-40.0..=150.0).contains(&r.celsius.value)) {
+    for run in runs.iter().filter(|r| is_temperature(root, r.celsius.value, Standing::Impossible)) {
         let message = format!("`{}`: {} °C has no machine", run.name, run.celsius.value);
         root.error("impossible-temperature", message, "°C = (°F − 32)/1.8");
     }

@@ -1,14 +1,11 @@
 //! What logs cannot say: each with its name, its file and its line.
 
 use super::{Cycle, Logs, jitter_square};
+use trueaxis_input::plausible::{Limits, Quantity, Standing};
 use trueaxis_input::{Diagnostics, Place};
 
 /// Fewer rows are no cycle.
 const FEWEST_ROWS: usize = 10;
-/// Nothing on a machine is colder or warmer, °C.
-const POSSIBLE_CELSIUS: std::ops::RangeInclusive<f64> = -40.0..=150.0;
-/// A sensor that never is colder than this stands at a hot place, or speaks °F, °C.
-const WARM_CELSIUS: f64 = 45.0;
 /// A step between two rows that no body makes, K.
 const JUMP_K: f64 = 5.0;
 /// A jump is so many times the usual step.
@@ -17,14 +14,12 @@ const JUMP_STEPS: f64 = 10.0;
 const MOVING_K: f64 = 0.5;
 /// A temperature does not jitter like that from row to row, K.
 const JITTER_K: f64 = 0.3;
-/// Nothing that drifts does so by more, mm.
-const LARGE_MM: f64 = 2.0;
 
 /// Checks one cycle; `place` gives the place of a row of it.
 pub fn check_cycle(
     cycle: &Cycle,
     logs: &Logs,
-    place: &dyn Fn(usize) -> Place,
+    (place, limits): (&dyn Fn(usize) -> Place, &Limits),
     problems: &mut Diagnostics,
 ) {
     let rows = cycle.displacement_mm.len();
@@ -40,10 +35,10 @@ pub fn check_cycle(
         let hint = "times rise from row to row; are two cycles joined? Name them in a cycle column";
         problems.error("time-runs-backwards", place(row + 1), message, hint);
     }
-    check_displacement(cycle, place, problems);
+    check_displacement(cycle, (place, limits), problems);
     let widest = cycle.temperatures_celsius.iter().map(|t| spread(t)).fold(0.0, f64::max);
     for (name, celsius) in logs.sensors.iter().zip(&cycle.temperatures_celsius) {
-        check_sensor(name, celsius, widest, place, problems);
+        check_sensor((name, celsius), widest, (place, limits), problems);
     }
     if widest < MOVING_K {
         let message = format!("cycle `{}`: no sensor moves by {MOVING_K} K", cycle.name);
@@ -51,15 +46,21 @@ pub fn check_cycle(
     }
 }
 
-fn check_displacement(cycle: &Cycle, place: &dyn Fn(usize) -> Place, problems: &mut Diagnostics) {
+fn check_displacement(
+    cycle: &Cycle,
+    (place, limits): (&dyn Fn(usize) -> Place, &Limits),
+    problems: &mut Diagnostics,
+) {
     let d = &cycle.displacement_mm;
     let moved = spread(d);
     if moved == 0.0 {
         let message = "the displacement is the same in all rows".to_owned();
         problems.error("stuck-displacement", place(0), message, "is the probe connected?");
-    } else if moved > LARGE_MM {
-        let message = format!("the displacement moves by {moved:.3} mm");
-        problems.warn("large-displacement", place(0), message, "is its unit right?");
+    } else {
+        // From their mean: a probe may stand anywhere.
+        let mean = d.iter().sum::<f64>() / d.len() as f64;
+        let drift: Vec<f64> = d.iter().map(|v| v - mean).collect();
+        limits.judge_column(Quantity::Deviation, ("displacement", &drift), place, problems);
     }
     if let Some(row) = jump(d, 0.0) {
         let step = (d[row] - d[row - 1]) * 1e3;
@@ -69,20 +70,22 @@ fn check_displacement(cycle: &Cycle, place: &dyn Fn(usize) -> Place, problems: &
 }
 
 fn check_sensor(
-    name: &str,
-    celsius: &[f64],
+    (name, celsius): (&str, &[f64]),
     widest: f64,
-    place: &dyn Fn(usize) -> Place,
+    (place, limits): (&dyn Fn(usize) -> Place, &Limits),
     problems: &mut Diagnostics,
 ) {
-    if let Some(row) = celsius.iter().position(|v| !POSSIBLE_CELSIUS.contains(v)) {
+    let standing = |v: &f64| limits.standing(Quantity::Temperature, *v);
+    if let Some(row) = celsius.iter().position(|v| standing(v) == Standing::Impossible) {
         let message = format!("`{name}` says {} °C, which no machine has", celsius[row]);
         let hint = "°F, K, or swapped with the displacement? °C = (°F − 32)/1.8 = K − 273.15";
         problems.error("impossible-temperature", place(row), message, hint);
         return;
     }
-    if celsius.iter().all(|v| *v > WARM_CELSIUS) {
-        let message = format!("`{name}` is never colder than {WARM_CELSIUS} °C");
+    // A hot place alone is warm at times; °F are so always.
+    if celsius.iter().all(|v| *v > 0.0 && standing(v) == Standing::Odd) {
+        let coldest = celsius.iter().fold(f64::INFINITY, |low, v| low.min(*v));
+        let message = format!("`{name}` is never colder than {coldest} °C");
         let hint = "°F, or swapped with the displacement? °C = (°F − 32)/1.8";
         problems.warn("warm-temperature", place(0), message, hint);
     }

@@ -5,6 +5,7 @@ use super::subsets::combinations;
 use super::{Cycle, Logs, Zero};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use trueaxis_input::plausible::Limits;
 use trueaxis_input::{
     CsvColumn, CsvTable, Diagnostics, Dimension, Files, Item, Place, Section, SourceText, Unit,
 };
@@ -89,6 +90,7 @@ struct Columns {
     cycle: Option<String>,
     time: Option<String>,
     interval_s: Option<f64>,
+    limits: Limits,
 }
 
 fn read(root: &Section<'_>, tables: &Tables<'_>, later: Option<&Later<'_>>) -> Option<Logs> {
@@ -114,7 +116,8 @@ fn read(root: &Section<'_>, tables: &Tables<'_>, later: Option<&Later<'_>>) -> O
     let reference = root.quantity("reference", Dimension::Temperature);
     let (displacement, unit, error, repeatability_mm) = displacement?;
     let (displacement, sensors) = (displacement?, sensors?);
-    let columns = Columns { displacement, unit, sensors, cycle, time, interval_s };
+    let limits = root.limits();
+    let columns = Columns { displacement, unit, sensors, cycle, time, interval_s, limits };
     let logs = Logs {
         name: name?.to_owned(),
         error: error?,
@@ -322,7 +325,7 @@ fn read_file(
                     true => Place::whole(&table.file),
                     false => table.row_place(rows.start + row),
                 };
-                check_cycle(&cycle, logs, &place, &mut found);
+                check_cycle(&cycle, logs, (&place, &columns.limits), &mut found);
                 logs.cycles.push(cycle);
             }
         }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 use trueaxis_geometry::Vec3;
+use trueaxis_input::plausible::{Limits, Quantity, Seen};
 use trueaxis_input::{Diagnostics, Dimension, Files, Place, QuantityError, parse_quantity};
 use trueaxis_machine::Machine;
 use trueaxis_machine::heat::{Conditions, TemperatureRun};
@@ -148,5 +149,8 @@ fn tool_length(text: &str, problems: &mut Diagnostics) -> Option<f64> {
         let hint = "a plain number, in mm: --tool-length 100";
         problems.error(e.code(), Place::whole("--tool-length"), e.to_string(), hint);
     };
-    parse_quantity(text, Dimension::Ratio).map_err(refuse).ok()
+    let length_mm = parse_quantity(text, Dimension::Ratio).map_err(refuse).ok()?;
+    let (place, seen) =
+        (Place::whole("--tool-length"), Seen { name: text, value: length_mm, more: 0 });
+    Limits::default().judge(Quantity::ToolLength, &seen, &place, problems).then_some(length_mm)
 }

@@ -6,6 +6,7 @@ use crate::plan::surface::points_of_table;
 use std::path::Path;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::surface::SurfacePoint;
+use trueaxis_input::plausible::Quantity;
 use trueaxis_input::{Diagnostics, Dimension, Files, MeasuredValue, Place, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::machine_of;
@@ -125,8 +126,8 @@ fn read_probe(section: &Section<'_>, folder: &Path, found: &mut Diagnostics) -> 
     let tool =
         section.require("tool", "tool = 1: its number in the control").and_then(|i| i.count());
     let hint = "length = \"90 ± 0.001 mm\", from the spindle to the centre of the ball";
-    let length = section.require("length", hint).and_then(|i| i.measured(Dimension::Length));
-    let ball = section.quantity("ball_diameter", Dimension::Length);
+    let length = section.require("length", hint).and_then(|i| i.measured_of(Quantity::ToolLength));
+    let ball = section.quantity_of("ball_diameter", Quantity::Diameter);
     let stylus = section.text("stylus").map(str::to_owned);
     let repeatability = section.quantity("repeatability", Dimension::Length);
     let hint = "calibration = \"ring.toml\": a study of `identify probe`; ball radius and pre-travel are not \

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use trueaxis_cl::{ClFile, Reading};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::surface::Candidates;
+use trueaxis_input::plausible::Quantity;
 use trueaxis_input::{Diagnostics, Dimension, Files, MeasuredValue, Section, SourceText, Unit};
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::{machine_of, read_direction, read_tool_shape};
@@ -166,7 +167,7 @@ struct Probe {
 fn read_probe(section: &Section<'_>) -> Option<Probe> {
     let length_mm = section.require("length", "length = \"90 ± 0.001 mm\"");
     let length_mm = length_mm.and_then(|item| {
-        let found = item.measured(Dimension::Length)?;
+        let found = item.measured_of(Quantity::ToolLength)?;
         if found.value <= 0.0 {
             item.error(
                 "not-positive",

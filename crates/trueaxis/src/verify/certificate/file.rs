@@ -94,7 +94,10 @@ pub fn read_certificate(files: &Files, path: &Path) -> (Option<Study>, Diagnosti
     let mut inputs = Inputs::beside(files, folder);
     let own = path.file_name().map_or(String::new(), |name| name.display().to_string());
     inputs.add("study", &own, text.as_bytes());
-    let read = source.read(|root| read(root, folder, inputs));
+    let read = source.read(|root| {
+        inputs.limits = root.limits();
+        read(root, folder, inputs)
+    });
     problems.append(source.finish());
     (read.filter(|_| !problems.has_errors()), problems)
 }

@@ -3,6 +3,7 @@
 use sha2::{Digest, Sha256};
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
+use trueaxis_input::plausible::Limits;
 use trueaxis_input::{Diagnostics, Files};
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::{Folder, Tables};
@@ -25,12 +26,15 @@ pub struct Inputs {
     /// Names are relative to this folder.
     folder: PathBuf,
     list: Vec<Input>,
+    /// What readings may be.
+    pub limits: Limits,
 }
 
 impl Inputs {
     /// Of a study that stands in this folder.
     pub fn beside(files: &Files, folder: &Path) -> Self {
-        Self { files: files.clone(), folder: folder.to_owned(), list: Vec::new() }
+        let (list, limits) = (Vec::new(), Limits::default());
+        Self { files: files.clone(), folder: folder.to_owned(), list, limits }
     }
 
     /// Takes a file into the list; each only once.

@@ -118,6 +118,7 @@ fn rows(
     }
     let place = tip_in_workpiece(machine);
     let readings = Readings::parse(&table, machine, &place, 0, problems)?;
+    readings.judge(&table, (machine, &place), &inputs.limits, problems);
     let deviation = |i: usize| {
         let read = Vec3::from(readings.values[i]);
         read - Vec3::from(place.nominal_reading(machine, &readings.commands[i], Vec3::x()))
@@ -137,7 +138,8 @@ fn tip_in_workpiece(machine: &Machine) -> Instrument {
         reference_point_mm: Vec3::zeros(),
         direction: Vec3::x(),
         length_mm: 0.0,
-        noise: [1.0; 3],
+        // Not known here: readings are judged by their size alone.
+        noise: [0.0; 3],
         unknowns: Vec::new(),
         material: None,
         reads: Default::default(),
