@@ -134,11 +134,14 @@ pub fn repeatability(
         let instrument = &design.instruments[readings.instruments[rows[0]] as usize];
         let kind = if instrument.sight.is_angle() { &mut angle } else { &mut length };
         let freedom = (rows.len() - 1) as f64 / rows.len() as f64;
-        let values = if instrument.has_rate() { residuals } else { &readings.values[..] };
+        let value = |i: usize, c: usize| match instrument.has_rate() {
+            true => residuals[i][c],
+            false => readings.values[i][c],
+        };
         for c in 0..instrument.sight.channels() {
-            let mean = rows.iter().map(|i| values[*i][c]).sum::<f64>() / rows.len() as f64;
+            let mean = rows.iter().map(|i| value(*i, c)).sum::<f64>() / rows.len() as f64;
             for i in rows {
-                let r = values[*i][c] - mean;
+                let r = value(*i, c) - mean;
                 noise.add(r / instrument.noise[c], freedom);
                 kind.add(r, freedom);
             }
