@@ -18,6 +18,6 @@ mod tables;
 pub mod virtual_campaign;
 
 pub use crate::instruments::{Instrument, Kind, Motion, Reading, Readings, instrument};
-pub use campaign::{Campaign, read_campaign, usual_setup};
+pub use campaign::{Campaign, read_campaign, readings_file, usual_setup};
 pub use motion::fill_motion;
 pub use tables::read_table;

@@ -9,7 +9,7 @@ pub use scope::within;
 use scope::{readable, writable};
 use std::fs;
 use std::io::{self, BufWriter, Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use trueaxis_input::{Diagnostics, Files, Source};
@@ -113,6 +113,30 @@ pub fn in_folder(path: &Path, endings: &[&str]) -> Vec<PathBuf> {
     let mut found: Vec<PathBuf> = entries.flatten().map(|e| e.path()).filter(is_one).collect();
     found.sort();
     found
+}
+
+/// A file as a text in this folder names it: the way from there where both have a folder in common, else the whole path.
+pub fn file_from(folder: &Path, file: &Path) -> String {
+    let plain = |path: &Path| {
+        let mut plain: Vec<Component<'_>> = Vec::new();
+        let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        for part in whole.components() {
+            match part {
+                Component::ParentDir => drop(plain.pop()),
+                Component::CurDir => {}
+                part => plain.push(part),
+            }
+        }
+        plain.iter().map(|part| part.as_os_str().to_string_lossy().into_owned()).collect::<Vec<_>>()
+    };
+    let (from, to) = (plain(folder), plain(file));
+    let common = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
+    // The root alone is nothing in common: a link on the way up could lead elsewhere.
+    if common < 2 {
+        return std::path::absolute(file).unwrap_or_else(|_| file.to_owned()).display().to_string();
+    }
+    let up = from[common..].iter().map(|_| "..".to_owned());
+    up.chain(to[common..].iter().cloned()).collect::<Vec<_>>().join("/")
 }
 
 /// Writes a file whole or not at all: into a temporary file in the same folder, then renamed.

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use trueaxis_geometry::exchange::{Candidate, Exchange, Selection};
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_measure::measure::Readings;
-use trueaxis_measure::measure::path::Path;
+use trueaxis_measure::measure::path::{Path, come_from};
 use trueaxis_measure::unknowns::design::Design;
 use trueaxis_measure::unknowns::fit::{Observability, normal_matrix};
 use trueaxis_nc::Control;
@@ -73,14 +73,15 @@ pub fn choose(plan: &Plan, candidates: &Candidates) -> Result<Chosen, String> {
     let commands: Vec<Command> =
         poses.iter().map(|rows| candidates.stations.commands[rows[0]]).collect();
     let ordered = in_order(plan, &commands, &selection.poses);
+    let measured = |numbers: &[usize]| measured(plan, candidates, &poses, numbers);
     let expected = |numbers: &[usize]| {
         let mut all = fixed.clone();
-        all.append(&stations_of(candidates, &poses, numbers));
+        all.append(&measured(numbers));
         expect(&plan.campaign, &design, &all)
     };
     let grid = plain_grid(plan, &commands, &selection);
     Ok(Chosen {
-        stations: stations_of(candidates, &poses, &ordered),
+        stations: measured(&ordered),
         poses: ordered.len(),
         candidates: all,
         blocked: all - poses.len(),
@@ -89,6 +90,29 @@ pub fn choose(plan: &Plan, candidates: &Candidates) -> Result<Chosen, String> {
         expectation: expected(&ordered),
         grid: grid.map(|numbers| (numbers.len(), expected(&numbers))),
     })
+}
+
+/// Some poses in the order in which they are measured, with the sides from which the axes come then and the time that
+/// the limit counts.
+fn measured(
+    plan: &Plan,
+    candidates: &Candidates,
+    poses: &[Vec<usize>],
+    numbers: &[usize],
+) -> Readings {
+    let mut stations = stations_of(candidates, poses, numbers);
+    if !candidates.states_sides(plan, &stations) {
+        stations.approaches.fill([0.0; 6]);
+        come_from(&mut stations);
+    }
+    let limit = &candidates.limit;
+    let mut at_s = 0.0;
+    for i in 0..stations.len() {
+        let is_next = i == 0 || stations.groups[i] != stations.groups[i - 1];
+        at_s += limit.per_hit_s + if is_next { limit.per_pose_s } else { 0.0 };
+        stations.times_s[i] = at_s;
+    }
+    stations
 }
 
 /// Whether nothing is in the way of one pose; not known where no program can be written.
@@ -185,6 +209,12 @@ impl Candidates {
     /// As [`choose`].
     pub fn exchange(&self, design: &Design, fixed: &Readings) -> Result<Exchange, String> {
         exchange(design, fixed, self, &poses_of(&self.stations))
+    }
+
+    /// Whether a station has its sides whatever stands before it: those of a hit and of targets with their overrun.
+    pub(super) fn states_sides(&self, plan: &Plan, stations: &Readings) -> bool {
+        let own = stations.instruments.first().map(|i| &plan.campaign.instruments[*i as usize]);
+        self.overrun > 0.0 || own.is_some_and(|i| i.kind.triggers())
     }
 
     /// The stations of some of the poses.

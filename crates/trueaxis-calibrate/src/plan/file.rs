@@ -28,6 +28,10 @@ pub struct Candidates {
     pub limit: Limit,
     /// What it shall determine.
     pub want: Want,
+    /// How long the machine stands before a reading, s.
+    pub dwell_s: f64,
+    /// How far an axis goes beyond a station that it does not reach from the stated side. Unit: mm or rad.
+    pub overrun: f64,
 }
 
 /// `[limit]`.
@@ -103,7 +107,10 @@ fn read_candidates(root: &Section<'_>, item: &Item<'_>, campaign: &Campaign) -> 
     };
     let want = root.section("want", |s| read_want(s, campaign, usual.clone()));
     let want = want.map_or(Some(usual), |w| w);
-    Some(Candidates { stations: joined(path?), limit: limit?, want: want? })
+    let paths = path?;
+    let largest = |of: fn(&Path) -> f64| paths.iter().map(of).fold(0.0, f64::max);
+    let (dwell_s, overrun) = (largest(|p| p.dwell_s), largest(|p| p.overrun));
+    Some(Candidates { stations: joined(paths), limit: limit?, want: want?, dwell_s, overrun })
 }
 
 /// The stations of all paths; poses stay apart.

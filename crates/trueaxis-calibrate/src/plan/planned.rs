@@ -1,13 +1,15 @@
 //! What becomes of a plan: every path with its program, what that does, and what the path sees.
 
+use super::ready::{ChosenTable, ready_campaign};
 use super::{Chosen, Expectation, Plan, StageExpectation, choose, expect, seen};
 use super::{expect_stages, planned_design};
 use crate::plan::program::{ProgramCheck, check, program, program_files};
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{Diagnostics, Place};
+use trueaxis_machine::axis::{Axis, AxisKind};
 use trueaxis_machine::errors::ErrorValues;
 use trueaxis_measure::measure::path::Path;
-use trueaxis_measure::measure::virtual_campaign::set_times;
+use trueaxis_measure::measure::virtual_campaign::{set_times, station_times_s};
 use trueaxis_measure::measure::{Campaign, Kind, Readings};
 use trueaxis_measure::unknowns::design::Design;
 use trueaxis_nc::Control;
@@ -44,6 +46,43 @@ pub struct PlannedPath {
     pub files: Vec<(String, Vec<u8>)>,
 }
 
+impl PlanReport {
+    /// The campaign that `measure` and `identify` read, for a folder with the files of the paths; `moved` names a file
+    /// of the campaign from there.
+    ///
+    /// # Errors
+    /// In words, why the text of the campaign cannot be edited.
+    pub fn ready_campaign(&self, moved: &dyn Fn(&str) -> String) -> Result<String, String> {
+        let campaign = &self.plan.campaign;
+        let text = campaign.files.read_text(&campaign.path).map_err(|e| e.to_string())?;
+        let planned = self.paths.last().filter(|_| self.chosen.is_some());
+        let index = planned.and_then(|p| p.path.stations.instruments.first());
+        let overrun = planned.map(|p| overrun_text(campaign, &p.path)).unwrap_or_default();
+        let chosen = planned.zip(index).map(|(planned, index)| ChosenTable {
+            file: planned.files.iter().find(|f| f.0.ends_with(".csv")).map_or("", |f| &f.0),
+            instrument: &campaign.instruments[*index as usize].name,
+            dwell_s: planned.path.dwell_s,
+            overrun: Some(overrun.as_str()).filter(|text| !text.is_empty()),
+        });
+        ready_campaign(&text, &self.plan, chosen.as_ref(), moved)
+    }
+}
+
+/// The overrun of a path as a campaign writes it; empty if there is none.
+fn overrun_text(campaign: &Campaign, path: &Path) -> String {
+    let sides = &path.stations.approaches;
+    let of_rotary = |(i, axis): (usize, &Axis)| {
+        axis.kind == AxisKind::Rotary && sides.iter().any(|side| side[i] != 0.0)
+    };
+    match path.overrun {
+        overrun if overrun <= 0.0 => String::new(),
+        rad if campaign.machine.axes().iter().enumerate().any(of_rotary) => {
+            format!("{} deg", rad.to_degrees())
+        }
+        mm => format!("{mm} mm"),
+    }
+}
+
 /// The most informative poses, if the campaign asks for a choice; why there is none goes to `problems`.
 pub fn chosen(plan: &Plan, problems: &mut Diagnostics) -> Option<Chosen> {
     match choose(plan, plan.candidates.as_ref()?) {
@@ -66,8 +105,8 @@ pub fn planned(plan: Plan, chosen: Option<Chosen>, control: Control) -> PlanRepo
             name: "chosen".to_owned(),
             stations: chosen.stations.clone(),
             feed_mm_per_s: None,
-            dwell_s: 1.0,
-            overrun: 0.0,
+            dwell_s: plan.candidates.as_ref().map_or(1.0, |c| c.dwell_s),
+            overrun: plan.candidates.as_ref().map_or(0.0, |c| c.overrun),
         });
     }
     if plan.campaign.instruments.iter().any(|i| i.has_rate()) {
@@ -93,7 +132,12 @@ fn planned_path(
     let stem = file_name(&path.name, number);
     let index = path.stations.instruments.first().copied().unwrap_or(0);
     let instrument = &campaign.instruments[index as usize];
-    let table = path.stations.poses(&campaign.machine);
+    let mut stations = path.stations.clone();
+    if stations.times_s.iter().all(|t| *t == 0.0) {
+        stations.times_s = station_times_s(campaign, &path);
+    }
+    let sided = instrument.kind.triggers() || path.overrun > 0.0;
+    let table = stations.poses(&campaign.machine, instrument.direction, sided);
     let text = program(campaign, &path, settings, control);
     let check = match &text {
         Ok(text) => Ok(check(campaign, &path, settings, text, control)),

@@ -457,6 +457,12 @@ fn read_tables(item: &Item<'_>, folder: &Path) -> Vec<PathBuf> {
     items.iter().filter_map(|i| i.text()).map(|p| folder.join(p)).collect()
 }
 
+/// The table of readings of an instrument where it is written; its name must not lead out of the folder.
+pub fn readings_file(instrument: &str) -> String {
+    let safe = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' };
+    format!("{}.csv", instrument.chars().map(safe).collect::<String>())
+}
+
 /// What is unknown of a set-up unless the campaign states it.
 pub fn usual_setup(kind: Kind) -> Vec<SetupUnknown> {
     let free = |error| SetupUnknown { name: kind.unknown_name(error), error, prior_u: None };

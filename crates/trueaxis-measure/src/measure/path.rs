@@ -20,6 +20,7 @@ pub use spread::{Poses, read_poses};
 pub use touch::{FreeSide, STAND_OFF_MM, hits};
 
 use super::{Campaign, Reading, Readings};
+use trueaxis_geometry::Vec3;
 use trueaxis_input::{CsvTable, Diagnostics, Dimension, Item, Section};
 use trueaxis_machine::axis::{AxisKind, Command};
 
@@ -153,7 +154,7 @@ fn read_stations(
 
 /// From which side each axis comes, by the station before; axes that stand keep theirs. Where a
 /// path states it already (targets, hits) nothing is changed.
-fn come_from(stations: &mut Readings) {
+pub fn come_from(stations: &mut Readings) {
     if stations.approaches.iter().any(|a| *a != [0.0; 6]) {
         return;
     }
@@ -210,7 +211,8 @@ fn read_axes(section: &Section<'_>, campaign: &Campaign, command: &mut Command) 
     sound.then_some(())
 }
 
-/// Poses from a table whose columns are named by axis (mm, deg).
+/// Poses from a table whose columns are named by axis (mm, deg); where they are there, the sides from which the axes
+/// come (`X_approach`) and the direction of the station (`n_x`, `n_y`, `n_z`).
 fn read_table(section: &Section<'_>, campaign: &Campaign, instrument: usize) -> Option<Readings> {
     let file =
         section.require("table", "a CSV file with columns X, Y, Z (mm), A, C (deg)")?.text()?;
@@ -223,15 +225,24 @@ fn read_table(section: &Section<'_>, campaign: &Campaign, instrument: usize) -> 
     section.take_over(problems);
     let table = table.filter(|_| sound)?;
     let mut stations = Readings::default();
+    let normal = ["n_x", "n_y", "n_z"].map(|name| table.column(name));
     for row in 0..table.rows() {
-        let mut command = [0.0; 6];
-        for (q, axis) in command.iter_mut().zip(campaign.machine.axes()) {
+        let (mut command, mut approach) = ([0.0; 6], [0.0; 6]);
+        for (i, axis) in campaign.machine.axes().iter().enumerate() {
+            if let Some(column) = table.column(&format!("{}_approach", axis.name)) {
+                approach[i] = column.values[row].clamp(-1.0, 1.0);
+            }
             let Some(column) = table.column(&axis.name.to_string()) else { continue };
             let rotary = axis.kind == AxisKind::Rotary;
-            *q = column.values[row] * if rotary { 1f64.to_radians() } else { 1.0 };
+            command[i] = column.values[row] * if rotary { 1f64.to_radians() } else { 1.0 };
         }
         let group = table.column("group").map_or(row, |c| c.values[row].clamp(0.0, 1e9) as usize);
-        stations.push(station(command, campaign, instrument, group));
+        let mut station = Reading { approach, ..station(command, campaign, instrument, group) };
+        if let [Some(x), Some(y), Some(z)] = normal {
+            let stated = Vec3::new(x.values[row], y.values[row], z.values[row]);
+            station.direction = stated.try_normalize(0.0).unwrap_or(station.direction);
+        }
+        stations.push(station);
     }
     Some(stations)
 }

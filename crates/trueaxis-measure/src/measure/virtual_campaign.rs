@@ -261,6 +261,17 @@ pub fn measure(campaign: &Campaign, real: &VirtualCampaign) -> Result<Measuremen
     Ok(measurement)
 }
 
+/// When each station of one path is read after its beginning, s: by the limits of the axes and the feed.
+pub fn station_times_s(campaign: &Campaign, path: &Path) -> Vec<f64> {
+    let real = VirtualCampaign {
+        paths: vec![path.clone()],
+        truth: file::plain(campaign, 1),
+        disturb: Disturb::none(campaign.instruments.len()),
+    };
+    let (stands, _) = follow::follow(campaign, &real);
+    stands.iter().map(|stand| stand.reading.time_s).collect()
+}
+
 /// The true machine and the instruments at the temperatures of a time.
 struct Moment {
     machine: Machine,

@@ -11,7 +11,7 @@ use trueaxis_measure::measure::instrument::SetupError;
 use trueaxis_measure::measure::virtual_campaign::{
     Measurement, VirtualCampaign, measure, read_virtual, stage_tables,
 };
-use trueaxis_measure::measure::{Campaign, read_campaign};
+use trueaxis_measure::measure::{Campaign, read_campaign, readings_file};
 use trueaxis_measure::report::MeasuredReport;
 use trueaxis_report::Report;
 
@@ -45,12 +45,7 @@ impl Measure {
     /// Where the table of each instrument goes.
     fn tables(&self, campaign: &Campaign) -> Vec<PathBuf> {
         let Some(folder) = &self.output else { return Vec::new() };
-        let path = |name: &str| {
-            // A name of a campaign must not lead out of the folder.
-            let safe = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' };
-            folder.join(format!("{}.csv", name.chars().map(safe).collect::<String>()))
-        };
-        campaign.instruments.iter().map(|i| path(&i.name)).collect()
+        campaign.instruments.iter().map(|i| folder.join(readings_file(&i.name))).collect()
     }
 
     /// Where the table of a stage goes.

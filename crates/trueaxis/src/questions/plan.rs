@@ -1,11 +1,14 @@
 //! What will a measurement show, and how is it run?
 
 use super::{Answer, NewFile, Question, Tell, in_folder, named_control};
+use crate::files::file_from;
 use crate::report;
 use serde_json::Value;
-use std::path::PathBuf;
-use trueaxis_calibrate::plan::{Plan, PlanReport, chosen, planned, read_plan};
-use trueaxis_input::{Diagnostics, Files};
+use std::path::{Path, PathBuf};
+use trueaxis_calibrate::plan::{
+    Plan, PlanReport, READINGS_FOLDER, READY_CAMPAIGN, chosen, planned, read_plan,
+};
+use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_nc::Control;
 use trueaxis_report::{Report, document};
 
@@ -25,6 +28,8 @@ pub struct PlanMeasurement {
 pub struct PlanAnswer {
     /// The plan.
     pub found: PlanReport,
+    /// The campaign that `measure` and `identify` read.
+    ready: Option<String>,
     output: Option<PathBuf>,
 }
 
@@ -49,7 +54,23 @@ impl Question for PlanMeasurement {
         if problems.has_errors() {
             return None;
         }
-        Some(PlanAnswer { found: planned(plan, chosen, control), output: self.output.clone() })
+        let found = planned(plan, chosen, control);
+        let ready = match &self.output {
+            None => None,
+            Some(folder) => match found.ready_campaign(&|file| {
+                let at = self.campaign.parent().unwrap_or(Path::new("")).join(file);
+                file_from(folder, &at)
+            }) {
+                Ok(text) => Some(text),
+                Err(why) => {
+                    let place = Place::whole(&self.campaign.display().to_string());
+                    let hint = "write its sections as in examples/04_plan";
+                    problems.error("toml-syntax", place, why, hint);
+                    return None;
+                }
+            },
+        };
+        Some(PlanAnswer { found, ready, output: self.output.clone() })
     }
 }
 
@@ -74,6 +95,17 @@ impl Answer for PlanAnswer {
                 files.push(file.clone());
             }
         }
+        files.extend(self.ready.take().map(|text| (READY_CAMPAIGN.to_owned(), text.into_bytes())));
         in_folder(self.output.as_deref(), files)
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let Some(folder) = &self.output else { return Vec::new() };
+        let [campaign, readings] = [READY_CAMPAIGN, READINGS_FOLDER].map(|name| folder.join(name));
+        let campaign = campaign.display();
+        vec![
+            format!("virtual readings: trueaxis measure {campaign} -o {}", readings.display()),
+            format!("then: trueaxis identify {campaign}"),
+        ]
     }
 }

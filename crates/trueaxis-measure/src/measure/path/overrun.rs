@@ -5,7 +5,7 @@
 //! ```
 
 use crate::measure::{Campaign, Readings};
-use trueaxis_input::{Dimension, Section};
+use trueaxis_input::{Dimension, Section, parse_quantity};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
 
@@ -24,7 +24,7 @@ pub(super) struct Overrun {
     is_stated: bool,
 }
 
-/// `overrun = "5 mm"` of targets and diagonals; the other paths state no sides.
+/// `overrun = "5 mm"` of targets, diagonals and tables; the other paths state no sides.
 pub(super) fn read_overrun(
     section: &Section<'_>,
     kind: &str,
@@ -36,6 +36,10 @@ pub(super) fn read_overrun(
             let letter = section.text("axis").unwrap_or_default();
             let mut axes = campaign.machine.axes().iter();
             axes.any(|a| a.name.to_string() == letter && a.kind == AxisKind::Rotary)
+        }
+        "table" if section.get("overrun").is_some() => {
+            let stated = section.get("overrun").and_then(|item| item.as_text());
+            stated.is_some_and(|text| parse_quantity(text, Dimension::Angle).is_ok())
         }
         _ => return Some(Overrun { amount: 0.0, is_stated: false }),
     };

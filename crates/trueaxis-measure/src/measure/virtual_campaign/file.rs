@@ -68,7 +68,7 @@ impl VirtualCampaign {
 }
 
 /// The machine of the campaign and the set-ups as they are stated.
-fn plain(campaign: &Campaign, seed: u64) -> Truth {
+pub(super) fn plain(campaign: &Campaign, seed: u64) -> Truth {
     let bare = |i: &Instrument| Instrument { unknowns: Vec::new(), ..i.clone() };
     Truth {
         machine: campaign.machine.clone(),
