@@ -89,7 +89,9 @@ fn readings_far_below_their_noise_are_of_another_unit() {
 fn a_machine_file_with_a_slip_of_the_unit() {
     let folder = Folder::new("plausible-machine");
     let machine = |travel: &str, rest: &str| {
-        format!("[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n[axis.X]\ntravel = [\"0 mm\", \"{travel}\"]\n{rest}")
+        format!(
+            "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n[axis.X]\ntravel = [\"0 mm\", \"{travel}\"]\n{rest}"
+        )
     };
     let check = |text: String, status, severity, code, words: &[&str]| {
         let path = folder.file("machine.toml", text);
@@ -119,7 +121,8 @@ fn a_machine_file_with_a_slip_of_the_unit() {
     check(text, 2, "error", IMPOSSIBLE, &["machine.toml:8", "temperature_celsius"]);
     let location = "[location]\nEC0Y = \"0.5 deg\"\n";
     check(machine("500 mm", location), 0, "warning", IMPLAUSIBLE, &["machine.toml:7", "8727 µrad"]);
-    let motion = "[motion.X]\nECX = { polynomial = [\"0 urad\", \"0.1 rad\"], scale = \"500 mm\" }\n";
+    let motion =
+        "[motion.X]\nECX = { polynomial = [\"0 urad\", \"0.1 rad\"], scale = \"500 mm\" }\n";
     check(machine("500 mm", motion), 2, "error", IMPOSSIBLE, &["machine.toml:7", "100000 µrad"]);
 }
 
@@ -129,11 +132,19 @@ fn a_tool_as_long_as_a_hall_is_refused_wherever_it_is_stated() {
     let folder = Folder::new("plausible-tool");
     let words = ["160000 mm", "tool_length_mm"];
     let engraver = "machines/i5-engraver/machine.toml";
-    found(&["pose", engraver, "--at", "X=1", "--tool-length", "160000"], 2, "error", IMPOSSIBLE, &words);
+    found(
+        &["pose", engraver, "--at", "X=1", "--tool-length", "160000"],
+        2,
+        "error",
+        IMPOSSIBLE,
+        &words,
+    );
     let machine = fs::read_to_string(root().join(engraver)).unwrap();
-    let machine = folder.file("machine.toml", machine + "\n[tool.library.long]\nlength = \"160 m\"\n");
+    let machine =
+        folder.file("machine.toml", machine + "\n[tool.library.long]\nlength = \"160 m\"\n");
     found(&["check", &machine], 2, "error", IMPOSSIBLE, &words);
-    let setup = fs::read_to_string(root().join("examples/02_simulate/ring-fanuc.setup.toml")).unwrap();
+    let setup =
+        fs::read_to_string(root().join("examples/02_simulate/ring-fanuc.setup.toml")).unwrap();
     let setup = folder.file("ring.setup.toml", setup.replace("\"90 mm\"", "\"160 m\""));
     let program = "examples/02_simulate/ring-fanuc.nc";
     let simulate = ["simulate", engraver, program, "--setup", &setup, "--no-report"];

@@ -147,8 +147,18 @@ fn answers_of_the_commands_fit_their_schemas() {
         let arguments: Vec<String> = words.split(' ').map(|word| word.replace('~', " ")).collect();
         let mut arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
         arguments.extend(["--format", "json"]);
-        fits(name, &trueaxis(&arguments).json());
+        let document = trueaxis(&arguments).json();
+        fits(name, &document);
+        is_plausible(&words, &document);
     }
+}
+
+/// Ranges that warn of the examples would be of no use.
+fn is_plausible(command: &str, document: &Value) {
+    let codes = ["implausible-value", "impossible-value", "too-large", "small-readings"];
+    let found = document["diagnostics"].as_array().into_iter().flatten();
+    let odd: Vec<&Value> = found.filter(|d| codes.iter().any(|code| d["code"] == *code)).collect();
+    assert!(odd.is_empty(), "{command}: {odd:?}");
 }
 
 /// Scripts that read JSON need the reason, too.

@@ -224,6 +224,15 @@ pub struct Seen<'a> {
     pub value: f64,
     /// How many further values of the same column are outside.
     pub more: usize,
+    /// The largest of them, by its size. Unit: the inner unit of the quantity.
+    pub largest: f64,
+}
+
+impl<'a> Seen<'a> {
+    /// A value that is no part of a column.
+    pub fn one(name: &'a str, value: f64) -> Self {
+        Self { name, value, more: 0, largest: value }
+    }
 }
 
 impl Quantity {
@@ -392,7 +401,8 @@ fn judge_values(
     let (odd, impossible) = (count(Standing::Odd), count(Standing::Impossible));
     let wanted = if impossible > 0 { Standing::Impossible } else { Standing::Odd };
     let Some(row) = values.iter().position(|v| kind(v) == wanted) else { return true };
-    let seen = Seen { name, value: values[row], more: odd + impossible - 1 };
+    let largest = values.iter().filter(|v| !v.is_nan()).fold(0.0, |a: f64, b| a.max(b.abs()));
+    let seen = Seen { name, value: values[row], more: odd + impossible - 1, largest };
     report(quantity, bounds, &seen, &place(row), problems)
 }
 
@@ -428,7 +438,7 @@ fn report(
     let hint = format!(
         "check unit, heading and exponent; if the value is right, state the range in [plausible]: {} = {}",
         range.key,
-        shown(value.abs() * 1.2)
+        shown(seen.largest.abs() * range.factor * 1.2)
     );
     let place = place.clone();
     problems.add(crate::Diagnostic { code, severity, place, message, hint });
@@ -520,7 +530,7 @@ mod tests {
     fn an_error_grows_with_the_travel() {
         let of = |travel_mm: f64, value: f64| {
             let mut problems = Diagnostics::new();
-            let seen = Seen { name: "EXX", value, more: 0 };
+            let seen = Seen::one("EXX", value);
             Limits::default().judge_error(travel_mm, &seen, &Place::whole("m"), &mut problems);
             problems.iter().map(|d| d.code).collect::<Vec<_>>()
         };
@@ -544,5 +554,7 @@ mod tests {
         assert!(!sound && found.len() == 1);
         assert_eq!(found[0].place.line, 5);
         assert!(found[0].message.contains("-12900 µm, and 2 more"), "{}", found[0].message);
+        // The range that is proposed covers all of them.
+        assert!(found[0].hint.ends_with("reading_um = 15480"), "{}", found[0].hint);
     }
 }

@@ -225,7 +225,7 @@ impl<'s> Item<'s> {
     pub fn is_possible(&self, quantity: Quantity, value: f64) -> bool {
         let limits = self.source.limits.get();
         let name = self.as_text().unwrap_or(quantity.range().key);
-        let seen = Seen { name, value, more: 0 };
+        let seen = Seen::one(name, value);
         // The place is only determined where there is something to report: it takes time.
         if limits.standing(quantity, value) == crate::plausible::Standing::Plausible {
             return true;

@@ -255,7 +255,7 @@ impl Explained {
 }
 
 /// A covariance with the larger variance of two, unknown by unknown; the correlations stay.
-pub(super) fn larger(own: &mut DMatrix<f64>, other: &DMatrix<f64>) {
+fn larger(own: &mut DMatrix<f64>, other: &DMatrix<f64>) {
     let n = own.nrows();
     let times = |k: usize| match own[(k, k)] {
         v if v > 0.0 => (other[(k, k)] / v).sqrt().max(1.0),

@@ -9,7 +9,7 @@
 //! readings that were held out: every tenth of the places, and all readings at one angle of a rotary axis; the sizes
 //! are found again without them.
 
-use super::adequacy::{Prepared, Task, explanations, larger};
+use super::adequacy::{Prepared, Task, explanations};
 use super::score::Rms;
 use super::selection::{Sums, parts_by_place};
 use nalgebra::{DMatrix, DVector};
@@ -49,22 +49,18 @@ pub struct Predictor {
     pub design: Design,
     /// The values of all errors, in the order of that design. Unit: mm, rad or 1.
     pub values: DVector<f64>,
-    /// Their covariance: σ² (N + σ² Λ)⁻¹.
+    /// Their covariance: σ² (N + σ² Λ)⁻¹, over the explanations of the residual by their likelihood.
     pub covariance: DMatrix<f64>,
 }
 
-/// Predicts by the first explanation, with the larger uncertainties of all; `None` if the sums are not finite.
+/// Predicts by the first explanation; `None` if the sums are not finite.
 pub(super) fn predictor(
     all: &Prepared<'_>,
     (sums, explanations): (&Sums, &[Sizes]),
     task: Task<'_>,
 ) -> Option<Predictor> {
-    let first = explanations.first()?;
-    let values = all.values(sums, first)?;
-    let mut covariance = all.covariance(sums, first)?;
-    for other in &explanations[1..] {
-        larger(&mut covariance, &all.covariance(sums, other)?);
-    }
+    let values = all.values(sums, explanations.first()?)?;
+    let covariance = covariance(all, (sums, explanations), &values)?;
     let in_sample = rms(all, task, |_| &values);
     let mut splits = Vec::new();
     if task.scores && task.readings.len() <= MOST_ROWS {
@@ -74,6 +70,25 @@ pub(super) fn predictor(
     let held_out = splits.into_iter().filter_map(|(axis, part)| held_out(all, task, axis, &part));
     let (held_out, design) = (held_out.collect(), all.all.clone());
     Some(Predictor { in_sample, held_out, design, values, covariance })
+}
+
+/// The covariance about these values, over the explanations by their likelihood: what one of them leaves, and how far
+/// its values are off.
+fn covariance(
+    all: &Prepared<'_>,
+    (sums, explanations): (&Sums, &[Sizes]),
+    values: &DVector<f64>,
+) -> Option<DMatrix<f64>> {
+    let least = explanations.iter().map(|e| e.deviance).fold(f64::INFINITY, f64::min);
+    let likelihood = |e: &Sizes| (-0.5 * (e.deviance - least)).exp();
+    let whole: f64 = explanations.iter().map(likelihood).sum();
+    let mut covariance = DMatrix::zeros(values.len(), values.len());
+    for explanation in explanations {
+        let share = likelihood(explanation) / whole;
+        let off = all.values(sums, explanation)? - values;
+        covariance += (all.covariance(sums, explanation)? + &off * off.transpose()) * share;
+    }
+    Some(covariance)
 }
 
 fn rms<'v>(

@@ -150,7 +150,6 @@ fn tool_length(text: &str, problems: &mut Diagnostics) -> Option<f64> {
         problems.error(e.code(), Place::whole("--tool-length"), e.to_string(), hint);
     };
     let length_mm = parse_quantity(text, Dimension::Ratio).map_err(refuse).ok()?;
-    let (place, seen) =
-        (Place::whole("--tool-length"), Seen { name: text, value: length_mm, more: 0 });
+    let (place, seen) = (Place::whole("--tool-length"), Seen::one(text, length_mm));
     Limits::default().judge(Quantity::ToolLength, &seen, &place, problems).then_some(length_mm)
 }
