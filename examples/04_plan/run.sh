@@ -8,6 +8,9 @@ $trueaxis plan examples/04_plan/laser-gantry.toml -o "$out/laser" --control fanu
 $trueaxis measure examples/04_plan/laser-gantry.toml -o "$out/laser-readings"
 $trueaxis plan examples/04_plan/touch-probe-5-minutes.toml -o "$out/five-minutes" --control fanuc
 $trueaxis plan examples/04_plan/touch-probe-5-minutes.toml --format json
+# The chosen poses measured on the virtual machine, and what is identified of it.
+$trueaxis measure "$out/five-minutes/campaign.toml" -o "$out/five-minutes/readings"
+$trueaxis identify "$out/five-minutes/campaign.toml"
 # Touches on a whole free-form bangle, along its normals; the hits become deviations, which `compensate adapt` reads.
 $trueaxis plan probe-surface examples/04_plan/probe-surface.toml -o "$out/probe-surface" --control fanuc
 $trueaxis identify surface "$out/probe-surface/hits.toml" -o "$out/measured.csv"

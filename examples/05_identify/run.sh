@@ -36,6 +36,8 @@ $trueaxis identify examples/05_identify/head-head.toml --format json || test $? 
 $trueaxis identify examples/05_identify/head-head.toml --predictor "$out/predicted.toml" || test $? -eq 1
 $trueaxis check "$out/predicted.toml"
 $trueaxis pose "$out/predicted.toml" --at "X=850 Y=450 Z=150 B=20 C=45"
+# A ring whose place, tilt and size are not known, touched at turned poses.
+$trueaxis identify examples/05_identify/ring-on-table.toml
 # Ball-bar, R-test and laser at once.
 $trueaxis identify examples/05_identify/mixed-instruments.toml
 $trueaxis identify examples/05_identify/mixed-instruments.toml --check-conventions

@@ -16,13 +16,15 @@ use trueaxis::questions::PlanMeasurement;
     after_help = "\
 Examples:
   trueaxis plan examples/04_plan/probe-ball.toml
-  trueaxis plan examples/04_plan/touch-probe-5-minutes.toml --control fanuc -o programs
+  trueaxis plan examples/04_plan/touch-probe-5-minutes.toml --control fanuc -o five-minutes
+  trueaxis measure five-minutes/campaign.toml -o five-minutes/readings
+  trueaxis identify five-minutes/campaign.toml
   trueaxis plan CAMPAIGN.toml --format json
   trueaxis plan probe-surface examples/04_plan/probe-surface.toml -o programs
 
 Shows before the measurement which errors each path responds to, with what uncertainty they will be
-determined, which combinations are not observable, and which measurement separates them. Exit status:
-0 done, 1 a program would cause a collision or leave the travel, 2 unusable input."
+determined, which combinations are not observable, and which measurement separates them. -o also writes
+campaign.toml: the campaign with the chosen poses, which `measure` and `identify` read. Exit status: 0 done, 1 a program would cause a collision or leave the travel, 2 unusable input."
 )]
 pub struct Arguments {
     #[command(subcommand)]
@@ -48,7 +50,7 @@ struct CampaignArguments {
     /// The control of the NC programs: sinumerik, fanuc, haas, linuxcnc or heidenhain
     #[arg(long, alias = "dialect", value_name = "NAME", default_value = "sinumerik")]
     control: String,
-    /// Write one program and one table of poses per path into this folder
+    /// Write one program and one table of poses per path, and the campaign with the chosen poses, into this folder
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
     /// Write a report

@@ -8,6 +8,7 @@
 pub mod calibration;
 mod campaign;
 mod drift;
+mod element;
 mod material;
 mod motion;
 pub mod path;
@@ -17,7 +18,7 @@ pub mod stages;
 mod tables;
 pub mod virtual_campaign;
 
-pub use crate::instruments::{Instrument, Kind, Motion, Reading, Readings, instrument};
+pub use crate::instruments::{Element, Instrument, Kind, Motion, Reading, Readings, instrument};
 pub use campaign::{Campaign, read_campaign, readings_file, usual_setup};
 pub use motion::fill_motion;
 pub use tables::read_table;

@@ -333,6 +333,15 @@ mod tests {
     }
 
     #[test]
+    fn a_file_is_named_from_a_folder() {
+        let named = |folder: &str, file: &str| file_from(folder.as_ref(), file.as_ref());
+        assert_eq!(named("a/b", "a/machine.toml"), "../machine.toml");
+        assert_eq!(named("a/./b/", "a/c/../d/e.csv"), "../d/e.csv");
+        assert_eq!(named("/shop/plans/1", "/shop/machines/m.toml"), "../../machines/m.toml");
+        assert_eq!(named("/tmp/plans", "/shop/m.toml"), "/shop/m.toml");
+    }
+
+    #[test]
     fn a_folder_is_written_whole_and_over_nothing() {
         let folder = std::env::temp_dir().join(format!("trueaxis-folder-{}", std::process::id()));
         fs::create_dir_all(folder.join("empty")).unwrap();

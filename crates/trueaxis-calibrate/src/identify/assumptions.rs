@@ -36,8 +36,12 @@ pub(super) fn check_assumed(design: &Design, campaign: &Place, problems: &mut Di
                 "reads = \"deviation\", or \"correction\" for the opposite: what must be added to the command. The wrong \
                  one turns the sign of every error",
             ),
-            // A length has no sign, and neither has a place where a probe triggered.
-            Kind::BallBar | Kind::LengthTracker | Kind::TouchProbeBall | Kind::TouchProbeFace => {
+            // A length has no sign, and neither has a place where a probe triggered or a point was seen.
+            Kind::BallBar
+            | Kind::LengthTracker
+            | Kind::TouchProbeBall
+            | Kind::TouchProbeFace
+            | Kind::Points(_) => {
                 continue;
             }
         };

@@ -279,7 +279,8 @@ fn further_instrument(
 fn stations(design: &Design, instrument: usize, axes: &[usize]) -> Readings {
     let own = &design.instruments[instrument];
     let machine = &design.machine;
-    let placing = own.kind.holds_a_ball().then(|| Placing::of(machine, own).ok()).flatten();
+    let follows = own.kind.holds_a_ball() || own.kind.element().is_some();
+    let placing = follows.then(|| Placing::of(machine, own).ok()).flatten();
     let turned: Vec<usize> = axes
         .iter()
         .copied()
@@ -340,6 +341,13 @@ fn read_at(
     machine: &Machine,
     rotary: &Command,
 ) -> Vec<(Command, Vec3)> {
+    if let (Some(placing), Some(element)) = (placing, own.kind.element()) {
+        let points = element.points_mm(6, own.direction, own.length_mm, [60.0; 2]);
+        let placed =
+            points.iter().filter_map(|d| placing.place(own.reference_point_mm + d, rotary));
+        let inside = placed.filter(|c| leaves_travel(machine, c).is_none());
+        return inside.map(|c| (c, own.direction)).collect();
+    }
     let directions = match (placing, own.kind) {
         (Some(placing), Kind::TouchProbeBall) => {
             hits(FreeSide { stem: -Vec3::z() }, placing.tool_axis(rotary), 5)

@@ -9,7 +9,9 @@
 //! ```
 
 use super::drift::Drift;
+use super::element::{Element, across};
 use super::material::MaterialCompensation;
+use nalgebra::Rotation3;
 use trueaxis_geometry::frame::Pose;
 use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::Machine;
@@ -31,6 +33,8 @@ pub enum Sight {
     Along,
     /// How far the tool is turned about n against its nominal attitude.
     Turn,
+    /// How far P is from an element through Q.
+    Element(Element),
 }
 
 impl Sight {
@@ -39,6 +43,7 @@ impl Sight {
         match self {
             Self::ProbeOffset | Self::Place => 3,
             Self::Distance | Self::Along | Self::Turn => 1,
+            Self::Element(element) => element.channels().len(),
         }
     }
 
@@ -57,7 +62,11 @@ pub enum SetupError {
     ReferencePoint(usize),
     /// The instrument is turned about x, y, z of the reference, through its origin, rad.
     ReferenceTurn(usize),
-    /// The zero of a channel, mm or rad: dead path, length of a bar, radius of a stylus.
+    /// The element is displaced along e₁, e₂ across its direction or along it (0, 1, 2), mm.
+    Shift(usize),
+    /// The element is turned about e₁ or e₂ (0, 1) through its reference point, rad.
+    Tilt(usize),
+    /// The zero of a channel, mm or rad: dead path, length of a bar, radius of a stylus or an element.
     Zero(usize),
     /// Readings are too long by this share: wavelength, scale of a sensor.
     Scale,
@@ -133,7 +142,7 @@ pub struct Instrument {
     pub reference_point_mm: Vec3,
     /// n where a station says nothing else, a unit vector in the frame of the reference.
     pub direction: Vec3,
-    /// What the reading is measured against: the length of a bar, the radius of a ball, mm; of a
+    /// What the reading is measured against: the length of a bar, the radius of a ball or element, mm; of a
     /// probe-ball the distance from ball to probe, where the feed of a path counts.
     pub length_mm: f64,
     /// The standard uncertainty of one reading of each channel. Unit: mm or rad.
@@ -184,6 +193,8 @@ impl Wrench {
 struct Setup {
     tool_point_mm: Vec3,
     shift_and_turn: SixErrors,
+    element_shift_mm: [f64; 3],
+    tilt_rad: [f64; 2],
     zero: [f64; 3],
     scale: f64,
     material: f64,
@@ -263,6 +274,10 @@ impl Instrument {
             false => p - drifted - self.reference_point_mm,
         };
         let mut reading = match self.sight {
+            Sight::Element(element) => {
+                let d = self.seen_by_element(from_q, setup);
+                element.distances_mm(d, self.direction, self.length_mm)
+            }
             Sight::ProbeOffset => (seen_by_instrument.linear().transpose() * -from_q).into(),
             Sight::Place => from_q.into(),
             Sight::Distance => [from_q.norm(), 0.0, 0.0],
@@ -281,6 +296,20 @@ impl Instrument {
         reading
     }
 
+    /// d as a displaced element sees it.
+    ///
+    /// ```text
+    ///     d → R(τ₁e₁ + τ₂e₂)ᵀ (d − σ₁e₁ − σ₂e₂ − σ₃n)                            docs/model.md eq. 317
+    /// ```
+    fn seen_by_element(&self, from_q: Vec3, setup: &Setup) -> Vec3 {
+        let [first, second] = across(self.direction);
+        let [along_first, along_second, along] = setup.element_shift_mm;
+        let shift = first * along_first + second * along_second + self.direction * along;
+        let [about_first, about_second] = setup.tilt_rad;
+        let turn = Rotation3::new(first * about_first + second * about_second);
+        turn.inverse() * (from_q - shift)
+    }
+
     /// How each channel follows a small motion of the tool at its nominal pose.
     ///
     /// ```text
@@ -297,6 +326,9 @@ impl Instrument {
         let nothing = Wrench { force: Vec3::zeros(), moment: Vec3::zeros() };
         let q = self.reference_point_mm;
         match self.sight {
+            Sight::Element(element) => {
+                element.normals(p - q, self.direction).map(|normal| through(p, normal))
+            }
             Sight::ProbeOffset => [0, 1, 2].map(|i| through(q, -r.column(i).into_owned())),
             Sight::Place => [0, 1, 2].map(|i| through(p, Vec3::ith(i, 1.0))),
             Sight::Distance => {
@@ -328,6 +360,12 @@ impl Instrument {
             SetupError::ToolPoint(_) => 0.0,
             SetupError::ReferencePoint(i) => -wrench.force[i],
             SetupError::ReferenceTurn(i) => -wrench.moment[i],
+            SetupError::Shift(2) => -wrench.force.dot(&self.direction),
+            SetupError::Shift(i) => -wrench.force.dot(&across(self.direction)[i.min(1)]),
+            SetupError::Tilt(i) => {
+                let about_q = wrench.moment - self.reference_point_mm.cross(&wrench.force);
+                -about_q.dot(&across(self.direction)[i.min(1)])
+            }
             SetupError::Zero(i) if i == channel => self.zero_sign(),
             SetupError::Zero(_) => 0.0,
             SetupError::Scale => {
@@ -342,9 +380,10 @@ impl Instrument {
         }
     }
 
-    /// A larger radius of ball and stylus stands for a shorter reading, all other zeros for a longer.
+    /// A larger radius of ball and stylus or of an element stands for a shorter reading, all other zeros for a longer.
     fn zero_sign(&self) -> f64 {
-        if self.kind.triggers() { -1.0 } else { 1.0 }
+        let is_radius = self.kind.element().is_some_and(Element::is_round);
+        if self.kind.triggers() || is_radius { -1.0 } else { 1.0 }
     }
 
     fn setup(&self, unknowns: &[f64]) -> Setup {
@@ -354,6 +393,8 @@ impl Instrument {
                 SetupError::ToolPoint(i) => setup.tool_point_mm[i] += value,
                 SetupError::ReferencePoint(i) => setup.shift_and_turn.0[i] += value,
                 SetupError::ReferenceTurn(i) => setup.shift_and_turn.0[3 + i] += value,
+                SetupError::Shift(i) => setup.element_shift_mm[i] += value,
+                SetupError::Tilt(i) => setup.tilt_rad[i] += value,
                 SetupError::Zero(i) => setup.zero[i] += self.zero_sign() * value,
                 SetupError::Scale => setup.scale += value,
                 SetupError::Material => setup.material += value,

@@ -1,5 +1,6 @@
 //! The instruments of the shop by name: what each reads, and what its parts are called.
 
+use super::element::Element;
 use super::instrument::{SetupError, Sight};
 
 /// An instrument of the shop.
@@ -26,10 +27,13 @@ pub enum Kind {
     Artefact,
     /// Features of a cut test piece, measured by a coordinate measuring machine.
     CutPiece,
+    /// Points that lie on an element whose place is not known: hits, a gauge that is guided along it, or coordinates in
+    /// any frame.
+    Points(Element),
 }
 
 /// Every kind with its name in files.
-const NAMES: [(Kind, &str); 10] = [
+const NAMES: [(Kind, &str); 15] = [
     (Kind::ProbeBall, "probe-ball"),
     (Kind::BallBar, "ball-bar"),
     (Kind::TouchProbeBall, "touch-probe-ball"),
@@ -40,6 +44,11 @@ const NAMES: [(Kind, &str); 10] = [
     (Kind::LengthTracker, "length-tracker"),
     (Kind::Artefact, "artefact"),
     (Kind::CutPiece, "cut-piece"),
+    (Kind::Points(Element::Plane), "points-on-plane"),
+    (Kind::Points(Element::Line), "points-on-line"),
+    (Kind::Points(Element::Circle), "points-on-circle"),
+    (Kind::Points(Element::Sphere), "points-on-sphere"),
+    (Kind::Points(Element::Cylinder), "points-on-cylinder"),
 ];
 
 impl Kind {
@@ -67,6 +76,15 @@ impl Kind {
             Self::TouchProbeFace | Self::LaserLine | Self::Artefact => Sight::Along,
             Self::LaserAngle => Sight::Turn,
             Self::BallCentre | Self::CutPiece => Sight::Place,
+            Self::Points(element) => Sight::Element(element),
+        }
+    }
+
+    /// The element on which its points lie.
+    pub fn element(self) -> Option<Element> {
+        match self {
+            Self::Points(element) => Some(element),
+            _ => None,
         }
     }
 
@@ -104,7 +122,9 @@ impl Kind {
         match self {
             Self::ProbeBall => "socket",
             Self::BallBar => "spindle_ball",
-            Self::TouchProbeBall | Self::BallCentre | Self::TouchProbeFace => "stylus",
+            Self::TouchProbeBall | Self::BallCentre | Self::TouchProbeFace | Self::Points(_) => {
+                "stylus"
+            }
             Self::LaserLine | Self::LaserAngle => "optics",
             Self::LengthTracker => "reflector",
             Self::Artefact => "gauge",
@@ -122,6 +142,8 @@ impl Kind {
             Self::LengthTracker => "station",
             Self::Artefact => "artefact",
             Self::CutPiece => "datum",
+            Self::Points(Element::Circle | Element::Sphere) => "centre",
+            Self::Points(_) => "point",
         }
     }
 
@@ -131,7 +153,16 @@ impl Kind {
             Self::BallBar => "length",
             Self::TouchProbeBall | Self::TouchProbeFace => "radius",
             Self::LengthTracker => "dead_path",
+            Self::Points(element) if element.is_round() => "radius",
             _ => "zero",
+        }
+    }
+
+    /// How many zeros it may have: one for each channel, of an element its radius alone.
+    pub fn zeros(self) -> usize {
+        match self {
+            Self::Points(_) => 1,
+            _ => self.sight().channels(),
         }
     }
 
@@ -142,6 +173,7 @@ impl Kind {
             Sight::Distance => &["length"],
             Sight::Along => &["deviation"],
             Sight::Turn => &["angle"],
+            Sight::Element(element) => element.channels(),
         }
     }
 
@@ -158,6 +190,19 @@ impl Kind {
             // How a straightedge lies is never known to the micrometre.
             Self::Artefact => [&turn[..], &[SetupError::Zero(0)]].concat(),
             Self::CutPiece => [point, turn].concat(),
+            Self::Points(element) => {
+                let shift = |of: &[usize]| of.iter().map(|i| SetupError::Shift(*i)).collect();
+                let mut unknowns: Vec<SetupError> = match element {
+                    Element::Plane => shift(&[2]),
+                    Element::Line | Element::Cylinder => shift(&[0, 1]),
+                    Element::Circle | Element::Sphere => point.to_vec(),
+                };
+                if element != Element::Sphere {
+                    unknowns.extend([0, 1].map(SetupError::Tilt));
+                }
+                unknowns.extend(element.is_round().then_some(SetupError::Zero(0)));
+                unknowns
+            }
         }
     }
 
@@ -170,7 +215,9 @@ impl Kind {
             SetupError::ReferenceTurn(i) => {
                 format!("{}_turn_{}", self.reference_point(), axis(i))
             }
-            SetupError::Zero(i) if self.sight().channels() > 1 => {
+            SetupError::Shift(i) => format!("shift_{}", ["1", "2", "n"][i.min(2)]),
+            SetupError::Tilt(i) => format!("tilt_{}", i + 1),
+            SetupError::Zero(i) if self.zeros() > 1 => {
                 format!("{}_{}", self.zero(), axis(i))
             }
             SetupError::Zero(_) => self.zero().to_owned(),

@@ -2,6 +2,7 @@
 
 use super::Kind;
 use super::instrument::{Instrument, Sight};
+use super::points::read_points;
 use super::{Moment, Motion};
 use std::fmt::Write as _;
 use trueaxis_geometry::Vec3;
@@ -181,7 +182,7 @@ impl Readings {
                 line: u32::try_from(table.row_place(row).line).unwrap_or(u32::MAX),
             });
         }
-        Some(readings)
+        read_points(table, machine, instrument, &mut readings, problems).then_some(readings)
     }
 
     /// The stations as a table, as a path of kind `table` reads it: axes (mm, deg), with `sided` the side from which each
@@ -305,10 +306,10 @@ fn absolute(instrument: &Instrument) -> bool {
     instrument.sight == Sight::Distance || instrument.kind == Kind::BallCentre
 }
 
-/// A probe-ball reads where the ball is, not a deviation: at a command that is written with few decimals the
+/// A probe-ball reads where the ball is, not a deviation, and points how far they are from their element: at a command that is written with few decimals the
 /// socket stands beside the ball without any error of the machine, and the reading contains that.
 fn whole(instrument: &Instrument) -> bool {
-    instrument.kind == Kind::ProbeBall
+    instrument.kind == Kind::ProbeBall || instrument.kind.element().is_some()
 }
 
 /// From mm or rad to µm or µrad.
@@ -453,7 +454,9 @@ impl<'t> Columns<'t> {
                 "head the columns of positions by the letters of the axes: X,Y,Z (mm), A (deg)";
             problems.error("missing-column", Place::whole(&table.file), missing("the axes"), hint);
         }
-        for c in channels(instrument) {
+        // Points without a reading are on the element: the axes are the reading.
+        let hits = instrument.kind.element().is_some() && found.channels.is_empty();
+        for c in channels(instrument).filter(|_| !hits) {
             if !found.channels.iter().any(|(channel, ..)| *channel == c) {
                 let name = instrument.kind.channels()[c];
                 let unit = match instrument.sight.is_angle() {
@@ -493,6 +496,9 @@ impl<'t> Columns<'t> {
         }
         if let Some(index) = axis(name).filter(|_| unit == "approach") {
             return self.approaches.push((index, column));
+        }
+        if instrument.kind.element().is_some() && ["x", "y", "z"].contains(&name) {
+            return; // coordinates in any frame
         }
         let names = instrument.kind.channels();
         let channel = names.iter().position(|n| *n == name);

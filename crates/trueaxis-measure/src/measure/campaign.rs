@@ -1,6 +1,7 @@
 //! The campaign file: on which machine, with which instruments, which unknowns.
 
 use super::drift::{StatedDrift, read_drift};
+use super::element::{element_unknowns, read_radius};
 use super::material::{material_unknown, read_material};
 use super::prior::read_prior_file;
 use super::servo::read_servo;
@@ -317,7 +318,10 @@ fn read_instrument(
     let direction = section.get("direction").and_then(|i| read_direction(&i));
     let noise = section.require("noise", "the standard uncertainty of a reading, such as \"1 um\"");
     let noise = noise.and_then(|i| read_noise(&i, kind));
-    let length_mm = section.quantity("length", Dimension::Length).unwrap_or(0.0);
+    let length_mm = match kind.element() {
+        Some(element) => read_radius(section, element, direction.is_some()),
+        None => section.quantity("length", Dimension::Length).unwrap_or(0.0),
+    };
     if kind == Kind::TouchProbeBall && length_mm <= 0.0 {
         let message = "how far is the centre of the stylus from the centre of the ball?".to_owned();
         section.error(
@@ -371,11 +375,8 @@ fn assumed_length(machine: &Machine, kind: Kind, stated: &[SetupUnknown]) -> Opt
     let error = SetupError::ToolPoint(2);
     let turns = machine.axes().iter().any(|a| a.kind == AxisKind::Rotary);
     let is_stated = stated.iter().any(|u| matches!(u.error, SetupError::ToolPoint(_)));
-    (turns && kind.holds_a_ball() && !is_stated).then(|| SetupUnknown {
-        name: kind.unknown_name(error),
-        error,
-        prior_u: Some(LENGTH_U_MM),
-    })
+    (turns && (kind.holds_a_ball() || kind.element().is_some()) && !is_stated)
+        .then(|| SetupUnknown { name: kind.unknown_name(error), error, prior_u: Some(LENGTH_U_MM) })
 }
 
 /// Which way the numbers count.
@@ -493,9 +494,12 @@ fn read_setup(section: &Section<'_>, kind: Kind) -> Vec<SetupUnknown> {
         } else if key == turn {
             (three.map(SetupError::ReferenceTurn).to_vec(), Dimension::Angle)
         } else if key == kind.zero() {
-            let zeros = (0..kind.sight().channels()).map(SetupError::Zero).collect();
+            let zeros = (0..kind.zeros()).map(SetupError::Zero).collect();
             let angle = kind.sight().is_angle();
             (zeros, if angle { Dimension::Angle } else { Dimension::Length })
+        } else if let Some(own) = element_unknowns(kind, key) {
+            let angle = key == "tilt";
+            (own, if angle { Dimension::Angle } else { Dimension::Length })
         } else if key == "scale" {
             (vec![SetupError::Scale], Dimension::Angle)
         } else {

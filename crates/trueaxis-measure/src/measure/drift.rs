@@ -42,7 +42,7 @@ pub(super) fn read_drift(item: &Item<'_>, kind: Kind, direction: Vec3) -> Stated
     // What reads along one direction sees a drift along no other.
     let sees = |i: &usize| match kind.sight() {
         Sight::Along | Sight::Turn => direction[*i].abs() > 1e-6,
-        Sight::ProbeOffset | Sight::Place | Sight::Distance => true,
+        Sight::ProbeOffset | Sight::Place | Sight::Distance | Sight::Element(_) => true,
     };
     let rate = |i: usize| {
         let error = SetupError::Drift(i);

@@ -4,6 +4,7 @@
 //!     [[path]] ──kind──> places of the tool point on the workpiece, or axes ──Placing──> commands
 //! ```
 
+mod element;
 mod kinematic;
 mod linear;
 mod overrun;
@@ -31,7 +32,7 @@ pub(crate) const MOST_STATIONS: usize = 200_000;
 
 /// What a path may be.
 const KINDS: &str = "\"A\", \"B\", \"C\" (one rotary axis turns), \"F\", \"S\" (Lei and Hsu 2003), \
-                     \"cone\", \"BK1\" … (ISO 10791-6), \"circle\", \"diagonal\", \"targets\", \"touch\", \"grid\", \"random\", \"table\"";
+                     \"cone\", \"BK1\" … (ISO 10791-6), \"circle\", \"diagonal\", \"targets\", \"touch\", \"element\", \"grid\", \"random\", \"table\"";
 
 /// One test path.
 #[derive(Debug, Clone, PartialEq)]
@@ -143,6 +144,7 @@ fn read_stations(
         "diagonal" => linear::read_diagonal(section, campaign, instrument),
         "targets" => linear::read_targets(section, campaign, instrument),
         "touch" => touch::read_touch(section, campaign, instrument),
+        "element" => element::read_element(section, campaign, instrument),
         "grid" | "random" => spread::read_spread(section, campaign, instrument),
         other => {
             kind.error("unknown-path", format!("no path is called `{other}`"), KINDS);

@@ -127,6 +127,8 @@ fn why(unknowns: &[(Unknown<'_>, f64)]) -> String {
             let what = match error {
                 SetupError::ReferencePoint(_) => format!("where the {point} stands"),
                 SetupError::ReferenceTurn(_) => format!("how the {point} lies"),
+                SetupError::Shift(_) => format!("where the element of {} lies", instrument.name),
+                SetupError::Tilt(_) => format!("how the element of {} is tilted", instrument.name),
                 SetupError::ToolPoint(2) => format!("how far out the {tool} is (the tool length)"),
                 SetupError::ToolPoint(_) => format!("where the {tool} sits in the spindle"),
                 SetupError::Zero(_) => {

@@ -85,7 +85,7 @@ impl Unknown<'_> {
             Self::Term(term) if term.basis.is_lag() => false,
             Self::Term(term) => term.error.component.is_rotation(),
             Self::Setup(instrument, unknown) => match unknown.error {
-                SetupError::ReferenceTurn(_) => true,
+                SetupError::ReferenceTurn(_) | SetupError::Tilt(_) => true,
                 SetupError::Zero(_) | SetupError::Drift(_) => instrument.sight.is_angle(),
                 _ => false,
             },

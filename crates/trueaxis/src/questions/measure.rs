@@ -187,7 +187,10 @@ fn truth_text(
         for (unknown, value) in instrument.unknowns.iter().zip(values) {
             let by = if unknown.error.is_rate() { "/h" } else { "" };
             let angle = match unknown.error {
-                SetupError::ReferenceTurn(_) | SetupError::Scale | SetupError::Material => true,
+                SetupError::ReferenceTurn(_)
+                | SetupError::Tilt(_)
+                | SetupError::Scale
+                | SetupError::Material => true,
                 SetupError::Zero(_) | SetupError::Drift(_) => instrument.sight.is_angle(),
                 _ => false,
             };

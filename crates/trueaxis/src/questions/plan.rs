@@ -19,7 +19,7 @@ pub struct PlanMeasurement {
     pub campaign: PathBuf,
     /// The control of the programs, by its name.
     pub control: String,
-    /// The folder for one program and one table of poses per path.
+    /// The folder for one program and one table of poses per path, and the campaign with the chosen poses.
     pub output: Option<PathBuf>,
 }
 

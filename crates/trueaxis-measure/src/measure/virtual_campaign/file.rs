@@ -202,10 +202,13 @@ fn drawn(
 fn possible(instrument: &Instrument) -> Vec<(String, SetupError)> {
     let kind = instrument.kind;
     let three = [0, 1, 2];
-    let zeros = (0..kind.sight().channels()).map(SetupError::Zero);
+    let zeros = (0..kind.zeros()).map(SetupError::Zero);
+    let element = kind.element().is_some();
     let all = three.map(SetupError::ToolPoint).into_iter();
     let all = all.chain(three.map(SetupError::ReferencePoint));
     let all = all.chain(three.map(SetupError::ReferenceTurn));
+    let all = all.chain(three.map(SetupError::Shift).into_iter().filter(|_| element));
+    let all = all.chain([0, 1].map(SetupError::Tilt).into_iter().filter(|_| element));
     let all = all.chain(zeros).chain([SetupError::Scale]);
     let all = all.chain(instrument.material.is_some().then_some(SetupError::Material));
     let all = all.chain(three.map(SetupError::Drift));
@@ -278,7 +281,10 @@ fn read_setup(
     let dimension = match error {
         SetupError::Drift(_) if is_angle => Dimension::AngularVelocity,
         SetupError::Drift(_) => Dimension::Velocity,
-        SetupError::ReferenceTurn(_) | SetupError::Scale | SetupError::Material => Dimension::Angle,
+        SetupError::ReferenceTurn(_)
+        | SetupError::Tilt(_)
+        | SetupError::Scale
+        | SetupError::Material => Dimension::Angle,
         SetupError::Zero(_) if is_angle => Dimension::Angle,
         _ => Dimension::Length,
     };
