@@ -194,7 +194,7 @@ fn law_frame_and_order_of_measured_points_do_not_matter() {
     let far = nalgebra::Rotation3::from_axis_angle(&axis, 2.9);
     let shift = Vec3::new(1000.0, -300.0, 50.0);
     for element in [Element::Plane, Element::Circle, Element::Sphere, Element::Cylinder] {
-        // Where the axes stood, and where the points were: 3 µm beside it.
+        // Where the axes stood, and where the points were: 3 µm away.
         let stood = real_points(element, 25, 5);
         let were: Vec<Vec3> =
             stood.iter().zip(real_points(element, 25, 6)).map(|(_, p)| p).collect();

@@ -1,12 +1,12 @@
 //! The prediction by all errors as a machine file: it says what the predictor says, and compensates poses that were
 //! never measured, with an uncertainty that covers what remains.
 //!
-//! A head-head router, one ball (examples/05_identify/head-head.toml): the errors of X, Y, Z cannot be told from those
+//! A head-head router, one ball (examples/05_identify/head-head.toml): the errors of X, Y, Z cannot be separated from those
 //! of the head.
 
 mod library;
 
-use library::{disk, motions, read, root, within};
+use library::{disk, motions, normal, read, root, within};
 use nalgebra::DVector;
 use rayon::prelude::*;
 use trueaxis_calibrate::identify::errors::{Identification, identify};
@@ -86,7 +86,8 @@ fn truth(campaign: &Campaign, random: &mut SplitMix64) -> (Design, Vec<f64>) {
         _ if k < listed => within(random, 0.08),
         Some(u) if k < listed + hidden.len() && u.is_angle() => within(random, 2e-5),
         _ if k < listed + hidden.len() => within(random, 0.02),
-        Some(u) if u.prior().is_some() => 0.0,
+        // The length of the stylus is as wrong as is assumed where it is not stated.
+        Some(u) if u.prior().is_some() => u.prior().map_or(0.0, |p| p.1) * normal(random),
         _ => within(random, 0.05),
     };
     let values = (0..whole.unknowns()).map(|k| value(k, random)).collect();
@@ -201,7 +202,7 @@ fn law_compensation_of_places_that_were_not_measured() {
 fn law_neither_order_nor_list_changes_the_prediction() {
     let (campaign, readings) = example();
     let poses = readings.commands.clone();
-    // After the zero was set: a shift of all places alike cannot be told from the place of the ball.
+    // After the zero was set: a shift of all places alike cannot be separated from the place of the ball.
     let tips = |campaign: &Campaign, readings: &Readings| -> Vec<Vec3> {
         let machine = read_back(&written(campaign, &found(campaign, readings, false)));
         let at =

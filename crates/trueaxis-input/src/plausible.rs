@@ -220,11 +220,11 @@ impl Default for Limits {
 pub struct Seen<'a> {
     /// The name to show: a key, a heading.
     pub name: &'a str,
-    /// The value. Unit: the inner unit of the quantity.
+    /// The value. Unit: mm, rad … of the quantity.
     pub value: f64,
     /// How many further values of the same column are outside.
     pub more: usize,
-    /// The largest of them, by its size. Unit: the inner unit of the quantity.
+    /// The largest of them, by its size. Unit: mm, rad … of the quantity.
     pub largest: f64,
 }
 

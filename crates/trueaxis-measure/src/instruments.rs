@@ -8,6 +8,7 @@ mod kind;
 pub mod material;
 mod motion;
 mod points;
+mod poses;
 mod readings;
 
 pub use element::Element;

@@ -201,7 +201,7 @@ pub fn write_in_folder(path: &Path, content: &[u8]) -> io::Result<()> {
 const PART_BEGINS: &str = ".trueaxis-";
 const PART_ENDS: &str = ".part";
 
-/// Removes what runs left that were killed while they wrote beside this place: parts that nobody holds.
+/// Removes what runs left that were killed while they wrote beside this place: parts that no run holds.
 fn remove_dead_parts(place: &Path) {
     let folder = place.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let Ok(entries) = fs::read_dir(folder) else { return };

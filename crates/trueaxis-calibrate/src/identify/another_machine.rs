@@ -3,13 +3,15 @@
 use super::checks::deviations;
 use super::records::Records;
 use trueaxis_input::Diagnostics;
-use trueaxis_measure::measure::path::leaves_travel;
+use trueaxis_measure::measure::path::{Strayed, leaves_travel};
 use trueaxis_measure::unknowns::design::Design;
 
 /// Rows that are named one by one.
 const MOST_NAMED: usize = 3;
 /// No ball is placed so badly, no bar is so long or short, mm.
 const FAR_MM: f64 = 10.0;
+/// Farther outside than this share of the travel no other zero explains it. Unit: 1.
+const FAR_OUTSIDE: f64 = 0.1;
 /// Rows that are named in one message.
 const MOST_LINES: usize = 12;
 
@@ -22,16 +24,21 @@ pub(super) fn check_poses(design: &Design, records: &Records, problems: &mut Dia
     check_distance(design, records, problems);
 }
 
+/// A zero that is set elsewhere leaves the poses near the travel; another machine does not.
 fn check_travel(design: &Design, records: &Records, problems: &mut Diagnostics) {
     let commands = &records.readings.commands;
     let strayed = commands.iter().enumerate();
-    let strayed: Vec<(usize, String)> = strayed
-        .filter_map(|(i, c)| Some((i, leaves_travel(&design.machine, c)?.to_string())))
-        .collect();
-    let (Some((first, words)), count) = (strayed.first(), strayed.len()) else { return };
-    if 2 * count > commands.len() {
+    let strayed: Vec<(usize, Strayed)> =
+        strayed.filter_map(|(i, c)| Some((i, leaves_travel(&design.machine, c)?))).collect();
+    let is_far = |strayed: &Strayed| {
+        let (from, to) = strayed.travel;
+        (from - strayed.position).max(strayed.position - to) > FAR_OUTSIDE * (to - from)
+    };
+    let far: Vec<&(usize, Strayed)> = strayed.iter().filter(|(_, s)| is_far(s)).collect();
+    if let Some((first, words)) = far.first().filter(|_| 2 * far.len() > commands.len()) {
         let message = format!(
-            "{count} of {} poses are outside the travel, as this one: {words}",
+            "{} of {} poses are far outside the travel, as this one: {words}",
+            far.len(),
             commands.len()
         );
         let hint = "readings of another machine, exchanged columns, another unit or zero? or correct the travel in the \
@@ -41,10 +48,10 @@ fn check_travel(design: &Design, records: &Records, problems: &mut Diagnostics) 
     }
     for (row, words) in strayed.iter().take(MOST_NAMED) {
         let hint = "a wrong row? or correct the travel in the machine file";
-        problems.warn("outside-travel", records.place(*row), words.clone(), hint);
+        problems.warn("outside-travel", records.place(*row), words.to_string(), hint);
     }
     if let Some((row, _)) = strayed.get(MOST_NAMED) {
-        let message = format!("{} more like these", count - MOST_NAMED);
+        let message = format!("{} more like these", strayed.len() - MOST_NAMED);
         problems.note("outside-travel", records.place(*row), message, "");
     }
 }

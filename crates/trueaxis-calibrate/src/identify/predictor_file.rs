@@ -29,7 +29,7 @@ use trueaxis_measure::unknowns::term::{Basis, Term, stated};
 /// What is written on every line of it.
 const NOT_ALONE: &str = "single values are not identified";
 
-/// A machine file and the covariance beside it.
+/// A machine file and the file of its covariance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PredictorFile {
     /// The machine file, and tables that it names.

@@ -13,7 +13,7 @@ use trueaxis_measure::measure::readings_file;
 
 /// The name of the file.
 pub const READY_CAMPAIGN: &str = "campaign.toml";
-/// The folder beside it where the readings belong.
+/// The folder next to it where the readings belong.
 pub const READINGS_FOLDER: &str = "readings";
 /// The sections that the chosen poses replace.
 const CHOSEN_FROM: [&str; 3] = ["candidates", "limit", "want"];
@@ -174,7 +174,7 @@ fn readings(text: &str, root: &DeTable<'_>, plan: &Plan) -> Vec<Edit> {
     edits
 }
 
-/// An entry before a key: on a line of its own with the same beginning, or beside it in braces.
+/// An entry before a key: on a line of its own with the same beginning, or before it in braces.
 fn before_key(text: &str, at: usize, entry: &str) -> String {
     let line = text[..at].rfind('\n').map_or(0, |end| end + 1);
     let beginning = &text[line..at];

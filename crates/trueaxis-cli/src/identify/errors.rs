@@ -15,7 +15,7 @@ pub struct CampaignArguments {
     /// Write a machine file with the identified errors, their uncertainties and sources
     #[arg(short, long, value_name = "MACHINE.toml")]
     output: Option<PathBuf>,
-    /// Write a machine file with the prediction by all errors, listed or not, and their covariance beside it: for
+    /// Write a machine file with the prediction by all errors, listed or not, and next to it their covariance: for
     /// compensation where single errors cannot be separated
     #[arg(long, value_name = "MACHINE.toml")]
     predictor: Option<PathBuf>,

@@ -1,6 +1,6 @@
 //! Measured coordinates of points that lie on an element, in whatever frame they were measured.
 //!
-//! The frame follows from the places where the points are nominally: what is left of it, a displacement of all points
+//! The frame follows from the places where the points are nominally: what remains of it, a displacement of all points
 //! together, is that of the element, which is not known in any case.
 
 use super::element::{Element, nearest_motion};

@@ -238,7 +238,7 @@ impl Rest {
 pub struct Solved<'a> {
     /// (N + Λ)⁻¹ in units of the noise.
     pub inverse: &'a DMatrix<f64>,
-    /// Λ^−½: what is not known of each before, in units of the noise.
+    /// Λ^−½: what is not known of each before. Unit: that of the unknown over that of the noise.
     pub scale: &'a [f64],
     /// The part of N that was known before and not read.
     pub before: &'a DMatrix<f64>,

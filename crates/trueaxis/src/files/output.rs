@@ -1,7 +1,7 @@
 //! Files that an answer leaves: what may be replaced.
 //!
 //! One rule for all commands: a file that the command reads is never replaced; another one only if this program
-//! wrote it and nobody has changed it since, or if the same would be written, or by force.
+//! wrote it and it has not changed since, or if the same would be written, or by force.
 
 use super::{FilesRead, written};
 use std::fs;
