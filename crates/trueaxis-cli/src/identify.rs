@@ -74,9 +74,6 @@ struct ExpansionArguments {
     /// Write the machine file with these scales, its tables and the spline coefficients into this new folder
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
-    /// Write the report as an HTML page
-    #[arg(long, value_name = "FILE.html")]
-    report: Option<PathBuf>,
     #[command(flatten)]
     door: DoorArguments,
 }

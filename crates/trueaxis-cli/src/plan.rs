@@ -53,9 +53,6 @@ struct CampaignArguments {
     /// Write one program and one table of poses per path, and the campaign with the chosen poses, into this folder
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
-    /// Write a report
-    #[arg(long, value_name = "FILE.html")]
-    report: Option<PathBuf>,
     #[command(flatten)]
     door: DoorArguments,
 }

@@ -391,7 +391,7 @@ fn help_and_version() {
     assert_eq!(version.out, format!("trueaxis {}\n", env!("CARGO_PKG_VERSION")));
     let alone = trueaxis(&[]);
     assert_eq!((alone.status, alone.out.as_str()), (2, ""));
-    assert!(alone.err.contains("Usage: trueaxis <COMMAND>"), "{}", alone.err);
+    assert!(alone.err.contains("Usage: trueaxis [OPTIONS] [COMMAND]"), "{}", alone.err);
 }
 
 #[test]
