@@ -173,8 +173,9 @@ fn exchanged_columns_are_named() {
         assert!(table().contains(from), "{from}");
         let (found, problems) = told(CAMPAIGN, &table().replacen(from, to, 1));
         assert!(found.is_none(), "{to}");
-        let error =
-            problems.iter().find(|d| d.code == "another-machine" || d.code == "pose-off-ball");
+        let error = problems
+            .iter()
+            .find(|d| d.code == "readings-of-another-machine" || d.code == "pose-off-ball");
         let error = error.unwrap_or_else(|| panic!("{to}: {problems:?}"));
         assert!(error.place.line > 1 && error.place.file.ends_with("rows.csv"), "{error:?}");
     }
@@ -192,7 +193,11 @@ fn readings_of_another_machine_are_named() {
     let larger = changed(&table(), |_, cells| *cells.get_mut("X").expect("X") += 1500.0);
     let (found, problems) = told(CAMPAIGN, &larger);
     assert!(found.is_none());
-    assert!(problems.iter().any(|d| d.code == "another-machine" && d.message.contains("60 of 60")));
+    assert!(
+        problems
+            .iter()
+            .any(|d| d.code == "readings-of-another-machine" && d.message.contains("60 of 60"))
+    );
     let one = changed(&table(), |row, cells| {
         if row == 5 {
             *cells.get_mut("A").expect("A") = 136.0;
@@ -208,7 +213,7 @@ fn readings_of_another_machine_are_named() {
     );
     let (found, problems) = told(&head, &table());
     assert!(found.is_none());
-    let error = problems.iter().find(|d| d.code == "another-machine");
+    let error = problems.iter().find(|d| d.code == "readings-of-another-machine");
     assert!(error.is_some_and(|e| e.place.line > 1), "{problems:?}");
 }
 

@@ -30,7 +30,7 @@ const CASES: [Case; 17] = [
     Case {
         words: "compensate adapt examples/06_compensate/bangle-adapt.toml --cl OUT",
         file: "OUT",
-        input: "examples/06_compensate/bangle.cls",
+        input: "examples/06_compensate/bangle-adapt.cls",
     },
     Case {
         words: "compensate values machines/xkas2525/machine.toml --axis C --step 30 --format csv -o OUT",
@@ -94,7 +94,7 @@ const CASES: [Case; 17] = [
     },
     Case {
         words: "plan examples/04_plan/ball-bar-10791-6.toml -o OUT",
-        file: "OUT/01-a.mpf",
+        file: "OUT/01-bk1-radial.mpf",
         input: "examples/04_plan/ball-bar-10791-6.toml",
     },
     Case {

@@ -43,7 +43,7 @@ fn check_travel(design: &Design, records: &Records, problems: &mut Diagnostics) 
         );
         let hint = "readings of another machine, exchanged columns, another unit or zero? or correct the travel in the \
                     machine file";
-        problems.error("another-machine", records.place(*first), message, hint);
+        problems.error("readings-of-another-machine", records.place(*first), message, hint);
         return;
     }
     for (row, words) in strayed.iter().take(MOST_NAMED) {
@@ -77,7 +77,7 @@ fn check_distance(design: &Design, records: &Records, problems: &mut Diagnostics
         );
         let hint = "readings of another machine or set-up, exchanged columns, another tool length? `identify \
                     --check-conventions` tries";
-        problems.error("another-machine", records.place(*row), message, hint);
+        problems.error("readings-of-another-machine", records.place(*row), message, hint);
     }
 }
 
