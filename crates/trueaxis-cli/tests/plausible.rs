@@ -157,7 +157,8 @@ fn a_test_of_the_standards_with_a_heading_of_the_wrong_unit() {
     let laser = fs::read_to_string(root().join("examples/07_verify/x-axis-laser.csv")).unwrap();
     let path = folder.file("laser.csv", laser.replace("deviation_um", "deviation_mm"));
     let words = ["deviation_mm", "µm", "reading_um"];
-    found(&["evaluate", "iso230-2", &path], 2, "error", IMPOSSIBLE, &words);
+    // 5.3 mm: no machine has it by far, but a laser can read it.
+    found(&["evaluate", "iso230-2", &path], 0, "warning", IMPLAUSIBLE, &words);
     let conditions = folder.file("laser.toml", "[plausible]\nreading_um = 1e6\n");
     let stated = ["evaluate", "iso230-2", &path, "--conditions", &conditions, "--format", "json"];
     let ran = trueaxis(&stated);
