@@ -213,7 +213,7 @@ fn a_prediction_is_a_machine_file_whose_uncertainty_knows_what_is_separable() {
 #[test]
 fn a_prediction_that_makes_the_machine_worse_is_refused() {
     let folder = Folder::new("predictor-worse");
-    // Nothing but noise.
+    // Nothing but noise, at eight places: the listed errors follow it.
     let mut random = 12_345_u64;
     let mut noise = || {
         random =
@@ -224,6 +224,7 @@ fn a_prediction_that_makes_the_machine_worse_is_refused() {
         (0..200).map(|_| [800.0 + noise(), 500.0 + noise(), -200.0 + noise()]).collect();
     let campaign = with_readings(&folder, |i, line| match line.starts_with(['#', 'B']) {
         true => line.to_owned(),
+        false if i % 12 != 0 => String::new(),
         false => {
             let head: Vec<&str> = line.split(',').take(2).collect();
             let [x, y, z] = values[i];

@@ -58,7 +58,7 @@ fn readings_under_a_heading_of_the_wrong_unit_are_refused() {
         found(&["identify", &path], 2, "error", IMPOSSIBLE, &[&heading, "µm"]);
     }
     // Who says that the machine is so is believed.
-    let path = folder.file("probe-ball.toml", campaign("[plausible]\nreading_um = 50000\n"));
+    let path = folder.file("probe-ball.toml", campaign("[plausible]\nreading_um = 100000\n"));
     let ran = trueaxis(&["identify", &path, "--format", "json"]);
     assert!(diagnostics(&ran).iter().all(|d| d.1 != IMPOSSIBLE && d.1 != IMPLAUSIBLE));
 }
@@ -119,8 +119,8 @@ fn a_machine_file_with_a_slip_of_the_unit() {
     check(text, 0, "warning", IMPLAUSIBLE, &["machine.toml:8", "68 °C", "68 °F is 20 °C"]);
     let text = machine("500 mm", &scale("11.5 um/(m K)", "293 degC"));
     check(text, 2, "error", IMPOSSIBLE, &["machine.toml:8", "temperature_celsius"]);
-    let location = "[location]\nEC0Y = \"0.5 deg\"\n";
-    check(machine("500 mm", location), 0, "warning", IMPLAUSIBLE, &["machine.toml:7", "8727 µrad"]);
+    let location = "[location]\nEC0Y = \"1 deg\"\n";
+    check(machine("500 mm", location), 0, "warning", IMPLAUSIBLE, &["machine.toml:7", "17453 µrad"]);
     let motion =
         "[motion.X]\nECX = { polynomial = [\"0 urad\", \"0.1 rad\"], scale = \"500 mm\" }\n";
     check(machine("500 mm", motion), 2, "error", IMPOSSIBLE, &["machine.toml:7", "100000 µrad"]);
@@ -157,7 +157,7 @@ fn a_test_of_the_standards_with_a_heading_of_the_wrong_unit() {
     let laser = fs::read_to_string(root().join("examples/07_verify/x-axis-laser.csv")).unwrap();
     let path = folder.file("laser.csv", laser.replace("deviation_um", "deviation_mm"));
     let words = ["deviation_mm", "µm", "reading_um"];
-    // 5.3 mm: no machine has it by far, but a laser can read it.
+    // 5.3 mm: far more than of any machine, but a laser can read it.
     found(&["evaluate", "iso230-2", &path], 0, "warning", IMPLAUSIBLE, &words);
     let conditions = folder.file("laser.toml", "[plausible]\nreading_um = 1e6\n");
     let stated = ["evaluate", "iso230-2", &path, "--conditions", &conditions, "--format", "json"];

@@ -8,7 +8,7 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::AxisKind;
 
 /// Readings that all are smaller than this part of their stated noise are not readings in that unit.
-const PART_OF_NOISE: f64 = 0.05;
+const PART_OF_NOISE: f64 = 0.1;
 /// Fewer readings say nothing about their size.
 const FEWEST: usize = 6;
 
