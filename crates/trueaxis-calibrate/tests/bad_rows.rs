@@ -1,28 +1,15 @@
 //! Rows that are wrong in the ways of a shop: each is named with its line and its reason, and none makes a result look
 //! surer than it is.
 
+mod library;
+
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use trueaxis_calibrate::identify::errors::{Identification, identify};
 use trueaxis_calibrate::identify::records::{Options, read_options, read_records};
-use trueaxis_input::{Diagnostics, Files, Source};
+use trueaxis_input::{Diagnostics, Files};
 use trueaxis_measure::measure::read_campaign;
 use trueaxis_measure::measure::virtual_campaign::{measure, read_virtual};
-
-struct Shelf(BTreeMap<PathBuf, String>);
-
-impl Source for Shelf {
-    fn read(&self, path: &Path) -> std::io::Result<Vec<u8>> {
-        match self.0.get(path) {
-            Some(text) => Ok(text.clone().into_bytes()),
-            None => std::fs::read(path),
-        }
-    }
-
-    fn is_file(&self, path: &Path) -> bool {
-        self.0.contains_key(path) || path.is_file()
-    }
-}
 
 fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../examples/05_identify")
@@ -59,7 +46,7 @@ fn files(campaign: &str, table: &str) -> Files {
     let mut all = BTreeMap::new();
     all.insert(path(), campaign.to_owned());
     all.insert(folder().join("rows.csv"), table.to_owned());
-    Files::new(Shelf(all))
+    library::disk().with_texts(all)
 }
 
 /// The readings of the virtual machine.

@@ -1,7 +1,9 @@
 //! A drift that a campaign lists: its rate with U, errors that do not suffer from it, and what it needs to be found.
 
+mod library;
+
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use trueaxis_calibrate::identify::covariance_file::covariance_file;
 use trueaxis_calibrate::identify::errors::{Identification, identify};
@@ -9,29 +11,13 @@ use trueaxis_calibrate::identify::machine_file::machine_file;
 use trueaxis_calibrate::identify::records::{Options, Records, read_options, read_records};
 use trueaxis_calibrate::plan::{planned, read_plan};
 use trueaxis_geometry::Mat3;
-use trueaxis_input::{Diagnostics, Files, Source};
+use trueaxis_input::{Diagnostics, Files};
 use trueaxis_machine::file::Folder;
 use trueaxis_measure::measure::virtual_campaign::{VirtualCampaign, measure, read_virtual};
 use trueaxis_measure::measure::{Campaign, Readings, read_campaign};
 use trueaxis_measure::unknowns::fit::fit;
 use trueaxis_measure::unknowns::unlisted::Follows;
 use trueaxis_nc::Control;
-
-/// Tables and a campaign in memory over the files of the disk.
-struct Shelf(BTreeMap<PathBuf, String>);
-
-impl Source for Shelf {
-    fn read(&self, path: &Path) -> std::io::Result<Vec<u8>> {
-        match self.0.get(path) {
-            Some(text) => Ok(text.clone().into_bytes()),
-            None => std::fs::read(path),
-        }
-    }
-
-    fn is_file(&self, path: &Path) -> bool {
-        self.0.contains_key(path) || path.is_file()
-    }
-}
 
 fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../examples/05_identify")
@@ -84,7 +70,7 @@ fn files(campaign: &str, table: &str) -> Files {
     let mut all = BTreeMap::new();
     all.insert(path(), campaign.to_owned());
     all.insert(folder().join("drift.csv"), table.to_owned());
-    Files::new(Shelf(all))
+    library::disk().with_texts(all)
 }
 
 fn virtually(campaign: &str, seed: u64) -> (Campaign, VirtualCampaign) {

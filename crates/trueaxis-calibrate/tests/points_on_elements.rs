@@ -1,34 +1,19 @@
 //! Points that lie on an element: the same element as another solver finds, the same errors as other instruments find,
 //! whatever the frame, the order and the spacing of the points.
 
+mod library;
+
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::path::PathBuf;
 use trueaxis_calibrate::identify::errors::{Identification, identify};
 use trueaxis_calibrate::identify::records::{read_options, read_records};
 use trueaxis_form::{Criterion, Known};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::statistics::SplitMix64;
-use trueaxis_input::{Files, Severity, Source};
+use trueaxis_input::{Files, Severity};
 use trueaxis_measure::measure::virtual_campaign::{measure, read_virtual};
 use trueaxis_measure::measure::{Campaign, Element, Readings, read_campaign};
 use trueaxis_measure::unknowns::fit::fit;
-
-/// Files in memory over those of the disk.
-struct Shelf(Arc<BTreeMap<PathBuf, String>>);
-
-impl Source for Shelf {
-    fn read(&self, path: &Path) -> std::io::Result<Vec<u8>> {
-        match self.0.get(path) {
-            Some(text) => Ok(text.clone().into_bytes()),
-            None => std::fs::read(path),
-        }
-    }
-
-    fn is_file(&self, path: &Path) -> bool {
-        self.0.contains_key(path) || path.is_file()
-    }
-}
 
 fn machines() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../machines")
@@ -41,11 +26,11 @@ fn campaign_file() -> PathBuf {
 /// A campaign with the readings of its one instrument, `own.csv`.
 fn shelf(text: &str, table: &str) -> Files {
     let machine = "[machine]\nname = \"three axes\"\nchain = \"w b X Y Z t\"\n".to_owned();
-    Files::new(Shelf(Arc::new(BTreeMap::from([
+    library::disk().with_texts([
         (campaign_file(), text.to_owned()),
         (machines().join("own.csv"), table.to_owned()),
         (machines().join("plain.toml"), machine),
-    ]))))
+    ])
 }
 
 /// The campaign with its readings, or what is wrong with them.

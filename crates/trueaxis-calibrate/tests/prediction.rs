@@ -191,7 +191,6 @@ fn law_compensation_of_places_that_were_not_measured() {
     let inside = all.iter().filter(|[off, u, _]| off.abs() <= 2.0 * u).count() as f64 / n;
     let rms = |i: usize| (all.iter().map(|row| row[i] * row[i]).sum::<f64>() / n).sqrt();
     let [left, u, without] = [0, 1, 2].map(rms);
-    println!("{inside:.3} inside, {left:.4} mm left, u {u:.4}, {without:.4} without");
     assert!(inside >= 0.90, "{inside}");
     assert!(left < 0.25 * without, "{left} mm of {without} mm");
     // The uncertainty is of the size of what remains, not only larger.
@@ -223,7 +222,6 @@ fn law_neither_order_nor_list_changes_the_prediction() {
         let mut fewer = example().0;
         fewer.terms.retain(|t| t.error.to_string() != out);
         let apart = apart(tips(&fewer, &readings));
-        println!("without {out}: {apart:.4} mm apart");
         assert!(apart < 0.001, "without {out}: {apart} mm apart");
     }
 }

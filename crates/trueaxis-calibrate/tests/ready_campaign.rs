@@ -1,39 +1,24 @@
 //! From a choice of poses to errors without work by hand: the campaign that `plan` writes is measured and identified as
 //! it stands, for every instrument.
 
+mod library;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use trueaxis_calibrate::identify::errors::{Identification, identify};
 use trueaxis_calibrate::identify::records::{read_options, read_records};
 use trueaxis_calibrate::plan::{
     PlanReport, READINGS_FOLDER, READY_CAMPAIGN, chosen, planned, read_plan,
 };
-use trueaxis_input::{Files, Source};
+use trueaxis_input::Files;
 use trueaxis_measure::measure::virtual_campaign::{
     VirtualCampaign, measure, read_virtual, stage_tables,
 };
 use trueaxis_measure::measure::{Campaign, read_campaign, readings_file};
 use trueaxis_nc::Control;
 
-/// Files in memory over those of the disk.
-struct Shelf(Arc<BTreeMap<PathBuf, String>>);
-
-impl Source for Shelf {
-    fn read(&self, path: &Path) -> std::io::Result<Vec<u8>> {
-        match self.0.get(path) {
-            Some(text) => Ok(text.clone().into_bytes()),
-            None => std::fs::read(path),
-        }
-    }
-
-    fn is_file(&self, path: &Path) -> bool {
-        self.0.contains_key(path) || path.is_file()
-    }
-}
-
 fn files(shelf: &BTreeMap<PathBuf, String>) -> Files {
-    Files::new(Shelf(Arc::new(shelf.clone())))
+    library::disk().with_texts(shelf.clone())
 }
 
 fn machines() -> PathBuf {

@@ -1,34 +1,18 @@
 //! Stages that hand on values with their covariance: the same as all readings at once, in any order; what does
 //! not belong together is named.
 
+mod library;
+
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::path::PathBuf;
 use trueaxis_calibrate::identify::covariance_file::covariance_file;
 use trueaxis_calibrate::identify::errors::{Identification, identify};
 use trueaxis_calibrate::identify::records::{Options, Records, read_options, read_records};
 use trueaxis_calibrate::plan::{expect_stages, read_plan};
-use trueaxis_input::{Diagnostics, Files, Source};
+use trueaxis_input::{Diagnostics, Files};
 use trueaxis_measure::measure::virtual_campaign::{measure, read_virtual, stage_tables};
 use trueaxis_measure::measure::{Campaign, Readings, read_campaign};
 use trueaxis_measure::unknowns::fit::Model;
-
-/// Files in memory over those of the disk.
-#[derive(Clone, Default)]
-struct Shelf(Arc<BTreeMap<PathBuf, String>>);
-
-impl Source for Shelf {
-    fn read(&self, path: &Path) -> std::io::Result<Vec<u8>> {
-        match self.0.get(path) {
-            Some(text) => Ok(text.clone().into_bytes()),
-            None => std::fs::read(path),
-        }
-    }
-
-    fn is_file(&self, path: &Path) -> bool {
-        self.0.contains_key(path) || path.is_file()
-    }
-}
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -73,7 +57,7 @@ impl Study {
     fn files(&self) -> Files {
         let mut all = self.tables.clone();
         all.insert(example(), self.text.clone());
-        Files::new(Shelf(Arc::new(all)))
+        library::disk().with_texts(all)
     }
 
     fn with(&self, from: &str, to: &str) -> Self {

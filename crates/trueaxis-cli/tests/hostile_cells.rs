@@ -472,6 +472,7 @@ fn a_hostile_cell_is_refused_or_answered_whole() {
 
 #[test]
 #[ignore = "some thousand runs; see the head of the file"]
+#[allow(clippy::print_stdout, reason = "the list is what the long run is for")]
 fn every_hostile_value_is_refused_or_answered_whole() {
     let values: Vec<&str> = HUGE.into_iter().chain(OTHERS).collect();
     let (mut lines, wrong) = run_all(&mutants(&values, true), "hostile-long");

@@ -247,7 +247,7 @@ fn a_covariance_that_does_not_belong_to_the_machine_file_is_refused() {
     let covariance = folder.path("predicted-covariance.toml");
     let known = std::fs::read_to_string(&covariance).expect("a covariance");
     let refused = |text: &str, known: Option<&str>, code: &str, place: &str| {
-        let machine = folder.file("changed.toml", text.to_owned());
+        let machine = folder.file("changed.toml", text);
         match known {
             Some(known) => std::fs::write(&covariance, known).expect("a file"),
             None => std::fs::remove_file(&covariance).expect("a file"),

@@ -120,7 +120,13 @@ fn a_machine_file_with_a_slip_of_the_unit() {
     let text = machine("500 mm", &scale("11.5 um/(m K)", "293 degC"));
     check(text, 2, "error", IMPOSSIBLE, &["machine.toml:8", "temperature_celsius"]);
     let location = "[location]\nEC0Y = \"1 deg\"\n";
-    check(machine("500 mm", location), 0, "warning", IMPLAUSIBLE, &["machine.toml:7", "17453 µrad"]);
+    check(
+        machine("500 mm", location),
+        0,
+        "warning",
+        IMPLAUSIBLE,
+        &["machine.toml:7", "17453 µrad"],
+    );
     let motion =
         "[motion.X]\nECX = { polynomial = [\"0 urad\", \"0.1 rad\"], scale = \"500 mm\" }\n";
     check(machine("500 mm", motion), 2, "error", IMPOSSIBLE, &["machine.toml:7", "100000 µrad"]);

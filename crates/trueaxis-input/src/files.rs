@@ -2,9 +2,10 @@
 //! [`Files`], which may be a disk, an upload or the memory of a test.
 
 use crate::{Diagnostics, Place};
+use std::collections::BTreeMap;
 use std::fmt;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A provider of files: a disk, a folder of a project, the memory of a test.
@@ -34,6 +35,18 @@ impl Files {
     /// The files of a source.
     pub fn new(source: impl Source + 'static) -> Self {
         Self(Arc::new(source))
+    }
+
+    /// These files with some more in memory, which stand before files of the same name.
+    ///
+    /// ```
+    /// use trueaxis_input::Files;
+    /// let files = Files::none().with_texts([("part.toml".into(), "name = \"part\"".to_owned())]);
+    /// assert!(files.is_file("part.toml".as_ref()) && !files.is_file("other.toml".as_ref()));
+    /// ```
+    #[must_use]
+    pub fn with_texts(self, texts: impl IntoIterator<Item = (PathBuf, String)>) -> Self {
+        Self::new(WithTexts { texts: texts.into_iter().collect(), others: self })
     }
 
     /// No files at all.
@@ -102,6 +115,24 @@ impl fmt::Debug for Files {
 impl PartialEq for Files {
     fn eq(&self, _: &Self) -> bool {
         true
+    }
+}
+
+struct WithTexts {
+    texts: BTreeMap<PathBuf, String>,
+    others: Files,
+}
+
+impl Source for WithTexts {
+    fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
+        match self.texts.get(path) {
+            Some(text) => Ok(text.clone().into_bytes()),
+            None => self.others.read(path),
+        }
+    }
+
+    fn is_file(&self, path: &Path) -> bool {
+        self.texts.contains_key(path) || self.others.is_file(path)
     }
 }
 

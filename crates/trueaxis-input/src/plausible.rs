@@ -284,7 +284,7 @@ impl Limits {
             let Some(item) = section.get(range.key) else { continue };
             let stated = if item.is_list() {
                 let ends: Option<Vec<f64>> =
-                    item.list().and_then(|list| list.iter().map(|i| i.number()).collect());
+                    item.list().and_then(|list| list.iter().map(crate::Item::number).collect());
                 ends.and_then(|e| <[f64; 2]>::try_from(e).ok())
             } else {
                 let low = |to: f64| if range.possible.0 < 0.0 { -to } else { range.plausible.0 };

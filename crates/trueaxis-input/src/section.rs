@@ -51,7 +51,7 @@ impl<'a> SourceText<'a> {
     /// One beyond the limits of [`limits`](crate::limits) is not parsed: it reads as an empty one, and that is its
     /// only problem.
     pub fn from(files: &Files, file: &'a str, text: &'a str) -> Self {
-        let excess = toml_excess(text).map(|(at, message)| over_limit(file, text, at, message));
+        let excess = toml_excess(text).map(|(at, message)| over_limit(file, text, at, &message));
         let text = if excess.is_some() { "" } else { text };
         let line_starts =
             std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
@@ -125,7 +125,7 @@ impl<'a> SourceText<'a> {
 }
 
 /// The problem of a text that is not parsed.
-fn over_limit(file: &str, text: &str, at: usize, message: String) -> Diagnostic {
+fn over_limit(file: &str, text: &str, at: usize, message: &str) -> Diagnostic {
     let hint = "check whether this is the intended file; rows of numbers belong into a CSV table that the file names";
     Diagnostic {
         code: "over-limit",

@@ -11,18 +11,15 @@ use trueaxis_measure::measure::virtual_campaign::{measure, read_virtual};
 use trueaxis_measure::measure::{Kind, read_campaign};
 use trueaxis_rtcp::rtcp::{Purpose, calibrate, read_rtcp};
 
-struct Shelf(BTreeMap<PathBuf, String>);
+struct Disk;
 
-impl Source for Shelf {
+impl Source for Disk {
     fn read(&self, path: &Path) -> std::io::Result<Vec<u8>> {
-        match self.0.get(path) {
-            Some(text) => Ok(text.clone().into_bytes()),
-            None => std::fs::read(path),
-        }
+        std::fs::read(path)
     }
 
     fn is_file(&self, path: &Path) -> bool {
-        self.0.contains_key(path) || path.is_file()
+        path.is_file()
     }
 }
 
@@ -38,7 +35,7 @@ fn files(text: &str, table: &str) -> Files {
     let mut all = BTreeMap::new();
     all.insert(path(), text.to_owned());
     all.insert(folder().join("signs.csv"), table.to_owned());
-    Files::new(Shelf(all))
+    Files::new(Disk).with_texts(all)
 }
 
 /// An instrument whose numbers have a sign, the error that it shows, and the rest of its campaign.

@@ -90,7 +90,7 @@ impl Drop for Served {
 fn open(streams: &mut [TcpStream]) -> usize {
     let is_open = |stream: &mut TcpStream| {
         stream.set_nonblocking(true).unwrap();
-        match stream.read(&mut [0]) {
+        match stream.peek(&mut [0]) {
             Err(error) => error.kind() == std::io::ErrorKind::WouldBlock,
             Ok(_) => false,
         }

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use trueaxis::files::disk;
 use trueaxis::geometry::{AxisKind, Mat3, Vec3};
-use trueaxis::input::{Diagnostics, Files, Source};
+use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{Command, Travel};
 use trueaxis::machine::describe::to_shown;
@@ -19,22 +19,6 @@ use trueaxis::verify::iso230_2;
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
-
-/// Tables in memory, everything else from the disk.
-struct Memory(BTreeMap<PathBuf, String>);
-
-impl Source for Memory {
-    fn read(&self, path: &Path) -> std::io::Result<Vec<u8>> {
-        match self.0.get(path) {
-            Some(text) => Ok(text.clone().into_bytes()),
-            None => std::fs::read(path),
-        }
-    }
-
-    fn is_file(&self, path: &Path) -> bool {
-        self.0.contains_key(path) || path.is_file()
-    }
 }
 
 /// The error that is injected: mm or rad, at a position in mm or rad.
@@ -177,7 +161,7 @@ fn tables_of(bench: &Bench<'_>, machine_path: &Path, targets: &[f64]) -> Vec<Err
         );
         files.insert(PathBuf::from(format!("{name}.csv")), bench.sheet(component, targets));
     }
-    let files = Files::new(Memory(files));
+    let files = disk().with_texts(files);
     let (study, problems) = parse_tables(&files, Path::new("study.toml"), &study);
     let study = study.unwrap_or_else(|| panic!("{:?}", problems.sorted()));
     let mut problems = Diagnostics::new();
@@ -399,7 +383,7 @@ fn law_the_range_of_positioning_is_m_of_iso_230_2() {
             "name = \"t\"\nmachine = \"m.toml\"\n[readings.EXX]\ntable = {:?}\nu = \"1 um\"\n",
             file.display().to_string()
         );
-        let files = Files::new(Memory(memory));
+        let files = disk().with_texts(memory);
         let (study, problems) = parse_tables(&files, Path::new("study.toml"), &text);
         let study = study.unwrap_or_else(|| panic!("{:?}", problems.sorted()));
         let tables = error_tables(&study, &mut Diagnostics::new());

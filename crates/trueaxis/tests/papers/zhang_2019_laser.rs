@@ -1,12 +1,11 @@
 //! Our figures for the laser tests of Zhang et al. 2019.
 
 use crate::{Ours, shop};
-use std::io;
-use std::path::{Path, PathBuf};
+
 use trueaxis::compensate::values::{Order, compensation_values};
 use trueaxis::files::disk;
 use trueaxis::identify::expansion::{Expansion, Run, Runs, identify_expansion};
-use trueaxis::input::{Files, MeasuredValue, Source};
+use trueaxis::input::MeasuredValue;
 use trueaxis::machine::axis::Command;
 use trueaxis::measure::virtual_campaign::{measure, read_virtual};
 use trueaxis::measure::{Campaign, read_campaign};
@@ -47,19 +46,6 @@ fn largest_um(laser: usize, of: Compensation) -> Vec<f64> {
 type Axis = (&'static str, usize, f64, [f64; 2]);
 const AXES: [Axis; 2] = [("X", 0, 3500.0, [28.4, 32.2]), ("Y", 1, 2300.0, [29.3, 33.8])];
 
-/// One file that is not on the disk.
-struct With(PathBuf, String);
-
-impl Source for With {
-    fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
-        if path == self.0 { Ok(self.1.clone().into_bytes()) } else { std::fs::read(path) }
-    }
-
-    fn is_file(&self, path: &Path) -> bool {
-        path == self.0 || path.is_file()
-    }
-}
-
 /// Command and deviation (mm) at 11 targets, rising, of a laser without noise.
 fn read((letter, axis, to, _): Axis, celsius: f64, keys: &str) -> (Campaign, Vec<(Command, f64)>) {
     let beam = ["1 0 0", "0 1 0"][axis];
@@ -71,7 +57,7 @@ fn read((letter, axis, to, _): Axis, celsius: f64, keys: &str) -> (Campaign, Vec
         letter.to_lowercase()
     );
     let path = shop::root().join("laser.toml");
-    let files = Files::new(With(path.clone(), text));
+    let files = disk().with_texts([(path.clone(), text)]);
     let (found, problems) =
         read_campaign(&files, &path, |root, campaign| read_virtual(root, campaign, None));
     let (campaign, real) = found.unwrap_or_else(|| panic!("{:?}", problems.sorted()));
