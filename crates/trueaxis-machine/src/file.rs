@@ -6,11 +6,13 @@ mod error_text;
 mod geometry_check;
 mod heat_text;
 mod joint_text;
+mod known_text;
 mod model_text;
 mod place_text;
 mod table_text;
 
 pub use chain_text::ChainText;
+pub use known_text::KnownRow;
 pub use model_text::{read_shape, read_tool_shape};
 pub use place_text::{read_direction, read_pose, read_tip, read_vector_mm};
 

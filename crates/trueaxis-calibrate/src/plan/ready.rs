@@ -9,6 +9,7 @@ use std::fmt::Write as _;
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
+use trueaxis_machine::describe::replacement::quoted;
 use trueaxis_measure::measure::readings_file;
 
 /// The name of the file.
@@ -21,7 +22,7 @@ const CHOSEN_FROM: [&str; 3] = ["candidates", "limit", "want"];
 /// The path of the chosen poses as the new campaign names it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChosenTable<'a> {
-    /// The table of poses, beside the campaign.
+    /// The table of poses, in the folder of the campaign.
     pub file: &'a str,
     /// The instrument that reads at them.
     pub instrument: &'a str,
@@ -89,22 +90,6 @@ fn heading(plan: &Plan) -> String {
 
 fn parsed(text: &str) -> Result<Spanned<DeTable<'_>>, String> {
     DeTable::parse(text).map_err(|error| error.message().to_owned())
-}
-
-/// A text as TOML writes it.
-fn quoted(text: &str) -> String {
-    let mut quoted = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' | '\\' => quoted.extend(['\\', c]),
-            c if c.is_control() => {
-                // Writing to a String cannot fail.
-                let _ = write!(quoted, "\\u{:04X}", u32::from(c));
-            }
-            c => quoted.push(c),
-        }
-    }
-    quoted + "\""
 }
 
 fn path_lines(chosen: &ChosenTable<'_>) -> Vec<String> {

@@ -14,7 +14,7 @@
 //!
 //! A function with a `value` of its own counts as known exactly.
 
-use super::Tables;
+use super::{KnownRow, Tables};
 use crate::Machine;
 use crate::axis::AxisKind;
 use crate::errors::{
@@ -24,8 +24,6 @@ use crate::errors::{
 use nalgebra::DMatrix;
 use trueaxis_input::{Dimension, Item, Section, SourceText};
 
-/// u and the variance of a file agree to this share of it.
-const SAME_U: f64 = 1e-6;
 /// More factors than this are no machine.
 const MOST_ROWS: usize = 2000;
 /// The machine file and its covariance say the same to this share, and to a picometre.
@@ -33,13 +31,6 @@ const SAME_VALUE: f64 = 1e-6;
 const SAME_MM: f64 = 1e-9;
 /// What to do with a file that is not usable.
 const HINT: &str = "this is no covariance that `identify --predictor` wrote";
-
-/// One `[[known]]`.
-struct Row {
-    name: Option<String>,
-    value: f64,
-    covariance: Vec<f64>,
-}
 
 /// Reads `[uncertainty]` of a machine file.
 pub fn read_joint(
@@ -88,12 +79,13 @@ fn read_file(root: &Section<'_>, name: &str, machine: &Machine) -> Option<JointE
     }
     let mut rows = Vec::new();
     for (before, item) in items.iter().enumerate() {
-        rows.push(item.section("known", |s| read_row(s, before)).flatten()?);
+        rows.push(item.section("known", |s| KnownRow::read(s, before)).flatten()?);
     }
     let functions = root.require("function", HINT)?;
     let functions = functions.section("function", |s| {
         let all = s.entries().into_iter().map(|(key, _, item)| {
-            let row = rows.iter().position(|row| row.name.as_deref() == Some(key));
+            let is_row = |row: &KnownRow| matches!(&row.of[..], [(name, 1.0)] if name == key);
+            let row = rows.iter().position(is_row);
             let known = row.map(|row| rows[row].value);
             let function = item.section(&s.path(key), |s| read_function(s, machine, known));
             Some((function.flatten()?, row))
@@ -113,38 +105,6 @@ fn read_file(root: &Section<'_>, name: &str, machine: &Machine) -> Option<JointE
         root.error("bad-covariance", message, "take the file as identify wrote it");
     }
     joint
-}
-
-fn read_row(section: &Section<'_>, before: usize) -> Option<Row> {
-    let of = section.require("of", "{ EX0C = 1.0 }").and_then(|i| {
-        i.section("known.of", |s| {
-            let entries = s.entries().into_iter();
-            entries.map(|(key, _, item)| Some((key.to_owned(), item.number()?))).collect()
-        })?
-    });
-    let number =
-        |key| section.require(key, "in mm, rad, s or 1").and_then(|i: Item<'_>| i.number());
-    let (value, u) = (number("value"), number("u"));
-    let item = section.require("covariance", "with all before it, and its own variance")?;
-    let covariance: Vec<f64> = item.list()?.iter().map(Item::number).collect::<Option<_>>()?;
-    let (of, value, u): (Vec<(String, f64)>, _, _) = (of?, value?, u?);
-    let variance = covariance.last().copied().unwrap_or(0.0);
-    if covariance.len() != before + 1 {
-        let message = format!("{} covariances, expected {}", covariance.len(), before + 1);
-        let hint = "one with each [[known]] before it, its own variance last";
-        item.error("bad-covariance", message, hint);
-        return None;
-    }
-    if u < 0.0 || (variance - u * u).abs() > SAME_U * u * u {
-        let message = format!("u is {u:e}, but the variance is {variance:e}");
-        item.error("bad-covariance", message, "the last number is u²");
-        return None;
-    }
-    let name = match &of[..] {
-        [(name, share)] if *share == 1.0 => Some(name.clone()),
-        _ => None,
-    };
-    Some(Row { name, value, covariance })
 }
 
 /// `{ error = "EXX", polynomial = […], origin, scale }`, `cosine = 2`, `sine = 2`, `hat = "12 mm", step = "10 mm"`, or

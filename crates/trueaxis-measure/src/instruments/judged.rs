@@ -1,5 +1,6 @@
 //! Readings that no instrument shows and commands that no machine has: a slip of the unit, by column and row.
 
+use super::readings::absolute;
 use super::{Instrument, Kind, Readings};
 use crate::instruments::instrument::Sight;
 use trueaxis_input::plausible::{Limits, Quantity};
@@ -64,7 +65,11 @@ impl Readings {
             let is_own = |n: &&str| n.rsplit_once('_').is_some_and(|(role, _)| role == name);
             let heading = table.columns.iter().map(|c| c.name.as_str()).find(is_own);
             let values: Vec<f64> = deviations.iter().map(|d| d[c]).collect();
-            let column = (heading.unwrap_or(name), &values[..]);
+            let heading = heading.unwrap_or(name);
+            // What is judged is what stands in the table, or what it differs from its nominal value by.
+            let less = format!("{heading} less its nominal value");
+            let stands = !absolute(instrument) && instrument.kind.element().is_none();
+            let column = (if stands { heading } else { &less }, &values[..]);
             limits.judge_column(quantity, column, |row| table.row_place(row), problems);
             let most = values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
             greatest = greatest.max(most / instrument.noise[c]);

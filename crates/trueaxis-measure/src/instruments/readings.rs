@@ -267,12 +267,12 @@ fn channels(instrument: &Instrument) -> std::ops::Range<usize> {
 }
 
 /// Distances are written whole, everything else against its nominal reading.
-fn absolute(instrument: &Instrument) -> bool {
+pub(super) fn absolute(instrument: &Instrument) -> bool {
     instrument.sight == Sight::Distance || instrument.kind == Kind::BallCentre
 }
 
-/// A probe-ball reads where the ball is, not a deviation, and points how far they are from their element: at a command that is written with few decimals the
-/// socket stands beside the ball without any error of the machine, and the reading contains that.
+/// A probe-ball reads where the ball is, and points how far they are from their element, not deviations: at a command
+/// with few decimals the socket is not quite at the ball, without any error of the machine, and the reading contains that.
 fn whole(instrument: &Instrument) -> bool {
     instrument.kind == Kind::ProbeBall || instrument.kind.element().is_some()
 }

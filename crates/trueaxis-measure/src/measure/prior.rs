@@ -21,9 +21,7 @@ use trueaxis_input::{Item, Place, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Command, Travel};
 use trueaxis_machine::errors::ErrorValues;
-
-/// u and the variance of a file agree to this share of it.
-const SAME_U: f64 = 1e-6;
+use trueaxis_machine::file::KnownRow;
 
 /// What an earlier campaign left.
 #[derive(Debug, Clone)]
@@ -36,13 +34,6 @@ pub struct Prior {
     pub known: Known,
     /// The tables of readings that are in it: name and mark.
     pub readings: Vec<(String, String)>,
-}
-
-/// One line of the file.
-struct Row {
-    of: Vec<(String, f64)>,
-    value: f64,
-    covariance: Vec<f64>,
 }
 
 /// A number that changes with a text (FNV-1a; Fowler, Noll, Vo 1991).
@@ -121,9 +112,9 @@ fn read_file(root: &Section<'_>, design: &Design, path: &Path) -> Option<Prior> 
             readings.extend(file.zip(mark).map(|(f, m)| (f.to_owned(), m.to_owned())));
         });
     }
-    let mut rows: Vec<(Row, Place)> = Vec::new();
+    let mut rows: Vec<(KnownRow, Place)> = Vec::new();
     for item in root.require("known", hint)?.list()? {
-        let row = item.section("known", |s| read_row(s, rows.len())).flatten()?;
+        let row = item.section("known", |s| KnownRow::read(s, rows.len())).flatten()?;
         rows.push((row, item.place()));
     }
     let used = |instrument: &str| {
@@ -180,46 +171,11 @@ fn check_set_up(section: &Section<'_>, item: &Item<'_>, name: &str, design: &Des
     });
 }
 
-fn read_row(section: &Section<'_>, before: usize) -> Option<Row> {
-    let of = section.require("of", "{ EX0C = 1.0 }").and_then(|i| {
-        i.section("known.of", |s| {
-            let entries = s.entries().into_iter();
-            entries.map(|(key, _, item)| Some((key.to_owned(), item.number()?))).collect()
-        })?
-    });
-    let number =
-        |key| section.require(key, "in mm, rad, s or 1").and_then(|i: Item<'_>| i.number());
-    let (value, u) = (number("value"), number("u"));
-    let item = section.require("covariance", "with all before it, and its own variance")?;
-    let covariance: Vec<f64> = item.list()?.iter().map(Item::number).collect::<Option<_>>()?;
-    let (of, value, u): (Vec<(String, f64)>, _, _) = (of?, value?, u?);
-    let variance = covariance.last().copied().unwrap_or(0.0);
-    if covariance.len() != before + 1 {
-        let message = format!("{} covariances, expected {}", covariance.len(), before + 1);
-        item.error(
-            "bad-covariance",
-            message,
-            "one with each [[known]] before it, its own variance last",
-        );
-        return None;
-    }
-    if u <= 0.0 || (variance - u * u).abs() > SAME_U * u * u {
-        let message = format!("u is {u:e}, but the variance is {variance:e}");
-        item.error("bad-covariance", message, "the last number is u², greater than 0");
-        return None;
-    }
-    if of.iter().all(|(_, share)| *share == 0.0) {
-        section.error("bad-covariance", "this is known of nothing".into(), "of = { EX0C = 1.0 }");
-        return None;
-    }
-    Some(Row { of, value, covariance })
-}
-
 /// What the rows say of the unknowns of the campaign; rows with others are left out, which is what
 /// remains of a normal distribution for the rest.
-fn known(root: &Section<'_>, rows: &[(Row, Place)], design: &Design) -> Option<Known> {
+fn known(root: &Section<'_>, rows: &[(KnownRow, Place)], design: &Design) -> Option<Known> {
     let names = design.names();
-    let is_ours = |row: &Row| row.of.iter().all(|(name, _)| names.contains(name));
+    let is_ours = |row: &KnownRow| row.of.iter().all(|(name, _)| names.contains(name));
     for (row, place) in rows.iter().filter(|(row, _)| !is_ours(row)) {
         let strange = |name: &&String| !names.contains(name);
         let Some(name) = row.of.iter().map(|(name, _)| name).find(strange) else { continue };
