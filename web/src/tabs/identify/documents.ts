@@ -21,11 +21,6 @@ export function unitOf(found: Found): Unit {
 
 export function foundValue(found: Found): number | null {
   return (
-    found.value_um ??
-    found.value_urad ??
-    found.value_um_per_m ??
-    found.value_um_per_h ??
-    found.value_urad_per_h ??
-    null
+    found.value_um ?? found.value_urad ?? found.value_um_per_m ?? found.value_um_per_h ?? found.value_urad_per_h ?? null
   );
 }
