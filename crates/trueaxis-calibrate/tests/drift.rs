@@ -267,7 +267,7 @@ fn the_return_to_the_first_station_makes_the_rate_surer() {
         told(campaign, &table).1.iter().map(|d| d.code).collect()
     };
     let silent = codes(&strong.replace(", drift = \"free\"", ""));
-    assert!(silent.contains(&"closure") || silent.contains(&"mixed-feeds"), "{silent:?}");
+    assert!(silent.contains(&"closure") && !silent.contains(&"mixed-feeds"), "{silent:?}");
     assert!(!codes(&strong).contains(&"closure"));
 }
 

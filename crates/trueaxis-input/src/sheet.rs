@@ -4,6 +4,8 @@ use crate::csv::{has_headings_excess, report_too_large, rows_excess, too_large};
 use crate::limits::{MOST_BAD_ROWS, MOST_ROWS};
 use crate::{Diagnostics, Dimension, Place, Unit};
 
+mod copies;
+
 /// A column of words names directions or diagonals, which are few; with more different words it is
 /// probably another column.
 const MAX_WORDS: usize = 100;
@@ -121,17 +123,21 @@ impl Sheet {
 
     /// The rows with one word (its index in [`Sheet::words`]) in a column, as a table.
     pub fn rows_with(&self, column: &Column, word: f64) -> Self {
+        self.filtered(|row| column.values.get(row) == Some(&word))
+    }
+
+    fn filtered(&self, is_kept: impl Fn(usize) -> bool) -> Self {
         let kept = |values: &[f64]| {
-            let pairs = values.iter().zip(&column.values);
-            pairs.filter(|(_, w)| **w == word).map(|(v, _)| *v).collect()
+            let numbered = values.iter().enumerate().filter(|(row, _)| is_kept(*row));
+            numbered.map(|(_, v)| *v).collect()
         };
-        let lines = self.lines.iter().zip(&column.values);
+        let lines = self.lines.iter().enumerate().filter(|(row, _)| is_kept(*row));
         let columns = self.columns.iter();
         Self {
             file: self.file.clone(),
             columns: columns.map(|c| Column { values: kept(&c.values), ..c.clone() }).collect(),
             words: self.words.clone(),
-            lines: lines.filter(|(_, w)| **w == word).map(|(line, _)| *line).collect(),
+            lines: lines.map(|(_, line)| *line).collect(),
         }
     }
 

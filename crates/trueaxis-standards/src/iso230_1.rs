@@ -130,7 +130,7 @@ pub fn evaluate(
         problems.error("missing-test", Place::whole(file), message, hint);
         return None;
     };
-    let sheet = Sheet::parse(file, text, profile::cells, problems)?;
+    let sheet = Sheet::parse(file, text, profile::cells, problems)?.with_repeats(problems);
     super::check_temperatures(&sheet, problems);
     for column in sheet.columns.iter().filter(|c| c.cells == Cells::Unused) {
         let message = format!("column `{}` is not used", column.name);

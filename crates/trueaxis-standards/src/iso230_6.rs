@@ -110,7 +110,7 @@ pub fn evaluate(
     conditions: &Conditions,
     problems: &mut Diagnostics,
 ) -> Option<Diagonals> {
-    let sheet = Sheet::parse(file, text, role_cells, problems)?;
+    let sheet = Sheet::parse(file, text, role_cells, problems)?.with_repeats(problems);
     iso230_2::warn_of_unused(&sheet, &["direction", "diagonal"], problems);
     super::check_temperatures(&sheet, problems);
     super::check_times(&sheet, false, problems);

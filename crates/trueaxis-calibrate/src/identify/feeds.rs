@@ -18,6 +18,8 @@ use trueaxis_measure::unknowns::term::{Basis, Term};
 const SHARED: f64 = 0.9;
 /// Repeats that differ by so many times their noise, in the median, were not read alike.
 const FAR: f64 = 8.0;
+/// A steady rate that leaves less than this share of the repeats' differences explains them.
+const STEADY: f64 = 0.25;
 /// From so many repeats on.
 const LEAST_REPEATS: usize = 10;
 /// So many errors are named for one lag.
@@ -110,10 +112,10 @@ pub(super) fn check_feeds(design: &Design, records: &Records, problems: &mut Dia
 }
 
 /// The row whose repeat without feed is furthest away, by how many times the noise, and the first row
-/// of that pose, if most repeats are far away.
+/// of that pose, if most repeats are far away and not by a steady rate in time.
 fn mixed(design: &Design, readings: &Readings) -> Option<(usize, f64, usize)> {
     let mut first: BTreeMap<_, usize> = BTreeMap::new();
-    let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+    let mut pairs: Vec<Repeat> = Vec::new();
     for i in 0..readings.len() {
         let of = readings.instruments[i];
         let instrument = &design.instruments[of as usize];
@@ -128,17 +130,59 @@ fn mixed(design: &Design, readings: &Readings) -> Option<(usize, f64, usize)> {
         let side = readings.approaches[i].map(|a| a.signum() as i8);
         let before = *first.entry((of, command, direction, side)).or_insert(i);
         if before != i {
-            let off = (0..instrument.sight.channels()).map(|c| {
-                let apart = readings.values[i][c] - readings.values[before][c];
-                apart.abs() / (instrument.noise[c] * 2f64.sqrt())
-            });
-            pairs.push((off.fold(0.0, f64::max), i, before));
+            pairs.push(Repeat::between(design, readings, before, i));
         }
     }
-    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let median = pairs.get(pairs.len() / 2).filter(|_| pairs.len() >= LEAST_REPEATS)?;
-    let (off, row, before) = *pairs.last()?;
-    (median.0 > FAR).then_some((row, off, before))
+    let median = median(pairs.iter().map(Repeat::off)).filter(|_| pairs.len() >= LEAST_REPEATS)?;
+    let most = pairs.iter().max_by(|a, b| a.off().total_cmp(&b.off()))?;
+    (median > FAR && !is_drift(&pairs, median)).then(|| (most.row, most.off(), most.before))
+}
+
+/// A row, the first of its pose, and how far apart they read, in parts of the noise of a difference.
+struct Repeat {
+    before: usize,
+    row: usize,
+    apart: Vec<f64>,
+    /// s; 0 without a time.
+    time_between_s: f64,
+}
+
+impl Repeat {
+    fn between(design: &Design, readings: &Readings, before: usize, row: usize) -> Self {
+        let instrument = &design.instruments[readings.instruments[row] as usize];
+        let apart = (0..instrument.sight.channels()).map(|c| {
+            let apart = readings.values[row][c] - readings.values[before][c];
+            apart / (instrument.noise[c] * 2f64.sqrt())
+        });
+        let time = |i: usize| readings.times_s.get(i).copied().unwrap_or(0.0);
+        let time_between_s = time(row) - time(before);
+        Repeat { before, row, apart: apart.collect(), time_between_s }
+    }
+
+    fn off(&self) -> f64 {
+        self.apart.iter().fold(0.0, |a: f64, d| a.max(d.abs()))
+    }
+}
+
+/// Whether a steady rate explains most of it: then it is evaluated, and called a drift, not two feeds.
+fn is_drift(pairs: &[Repeat], raw_median: f64) -> bool {
+    let channels = pairs.iter().map(|p| p.apart.len()).max().unwrap_or(0);
+    let rate = |c: usize| {
+        let of = |p: &Repeat| p.apart.get(c).map(|d| d / p.time_between_s);
+        median(pairs.iter().filter(|p| p.time_between_s != 0.0).filter_map(of)).unwrap_or(0.0)
+    };
+    let rates: Vec<f64> = (0..channels).map(rate).collect();
+    let rest = |p: &Repeat| {
+        let of = p.apart.iter().zip(&rates).map(|(d, r)| (d - r * p.time_between_s).abs());
+        of.fold(0.0, f64::max)
+    };
+    median(pairs.iter().map(rest)).is_some_and(|rest| rest < STEADY * raw_median)
+}
+
+fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut all: Vec<f64> = values.collect();
+    all.sort_by(f64::total_cmp);
+    all.get(all.len() / 2).copied()
 }
 
 /// Which lags these readings cannot separate, among the unknowns or not.

@@ -12,7 +12,7 @@ pub struct KnownRow {
     pub of: Vec<(String, f64)>,
     /// Its value. Unit: mm, rad, s or 1.
     pub value: f64,
-    /// Its covariance with each row before it, its own variance last.
+    /// Its covariance with each row before it, its own variance last. Unit: that of the two values, multiplied.
     pub covariance: Vec<f64>,
 }
 

@@ -26,6 +26,7 @@ fn cells(name: &str) -> Cells {
 
 pub(super) fn read(request: &FormRequest<'_>, problems: &mut Diagnostics) -> Option<Points> {
     let sheet = Sheet::parse(request.file, request.text, cells, problems)?;
+    let sheet = sheet.with_copies_once(problems);
     let lines = (0..sheet.rows()).map(|row| sheet.row_place(row).line).collect();
     let mut points_mm = vec![Vec3::zeros(); sheet.rows()];
     let mut has = [false; 3];

@@ -4,7 +4,7 @@
 //! The clauses are named from memory of ISO 230-2:2014; its text was not available.
 
 use super::{Direction, Measurement, Reading, Target};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use trueaxis_geometry::AxisKind;
 use trueaxis_input::{Diagnostics, Place};
 
@@ -22,6 +22,8 @@ const OUTLIER_READING: f64 = 6.0;
 const MOST_NAMED: usize = 10;
 /// So many times wider than the usual gap is the gap between clusters of targets.
 const CLUSTERED: f64 = 100.0;
+/// Two runs of fewer readings may be equal by chance.
+const LEAST_ALIKE: usize = 5;
 /// A deviation larger than this, mm or rad, is more likely a mistake.
 const LARGEST_DEVIATION: f64 = 1.0;
 
@@ -32,6 +34,7 @@ pub fn check(measurement: &Measurement, file: &str, problems: &mut Diagnostics) 
     check.positions();
     check.targets();
     check.runs();
+    check.copied_runs();
     check.deviations();
     check.outliers();
 }
@@ -198,6 +201,34 @@ impl Check<'_> {
                 message,
                 "both are used; are the runs numbered correctly?",
             );
+        }
+    }
+
+    /// Runs that read the same at every target: a copy, or a display of few digits.
+    fn copied_runs(&mut self) {
+        let mut runs: BTreeMap<u32, Vec<(u64, bool, u64)>> = BTreeMap::new();
+        for t in &self.m.targets {
+            for (readings, is_up) in [(&t.up, true), (&t.down, false)] {
+                for r in readings {
+                    // −0 is 0.
+                    let [at, read] = [t.position, r.deviation].map(|v| (v + 0.0).to_bits());
+                    runs.entry(r.run).or_default().push((at, is_up, read));
+                }
+            }
+        }
+        let differs = |all: &[(u64, bool, u64)]| all.windows(2).any(|w| w[0].2 != w[1].2);
+        let mut first: HashMap<Vec<(u64, bool, u64)>, u32> = HashMap::new();
+        for (run, all) in runs {
+            if all.len() < LEAST_ALIKE || !differs(&all) {
+                continue;
+            }
+            let of = *first.entry(all).or_insert(run);
+            if of != run {
+                let message = format!("run {run} reads as run {of} at every target, to the last digit");
+                let hint = "a copy makes R and A too small: delete it; or does the display show too few \
+                            digits?";
+                self.warn("copied-run", message, hint);
+            }
         }
     }
 
@@ -370,6 +401,46 @@ mod tests {
         assert_eq!(codes(&hole), ["missing-side"]);
         let few = table(|i, r, _, v| (i != 1 || r < 3).then_some(v));
         assert_eq!(codes(&few), ["few-runs", "unequal-runs"]);
+    }
+
+    /// Whatever is pasted again, and wherever, the parameters are those of the readings that were taken.
+    #[test]
+    fn copies_are_named_and_count_once() {
+        let text = table(|_, _, _, v| Some(v));
+        let (head, rows) = text.split_once('\n').unwrap();
+        let targets = |text: &str| {
+            let mut problems = Diagnostics::new();
+            read("t.csv", text, &mut problems).unwrap().targets
+        };
+        let plain = targets(&text);
+        let again = format!("{text}{rows}");
+        assert_eq!(targets(&again), plain);
+        assert_eq!(codes(&again), ["copied-rows"; 4]);
+        let doubled: String = rows.lines().flat_map(|row| [row, "\n", row, "\n"]).collect();
+        assert_eq!(targets(&format!("{head}\n{doubled}")), plain);
+        // Without run numbers, too.
+        let column = |row: &str| {
+            let c: Vec<&str> = row.split(',').collect();
+            format!("{},{},{}\n", c[0], c[2], c[3])
+        };
+        // Readings that differ at every target: what is equal was pasted.
+        let text = table(|i, r, d, v| {
+            Some(v + 0.01 * r as f64 + 0.001 * i as f64 + if d == "up" { 0.3 } else { 0.0 })
+        });
+        let rows: String = text.lines().skip(1).map(column).collect();
+        let head = "target_mm,direction,deviation_um\n";
+        assert_eq!(targets(&format!("{head}{rows}{rows}")), targets(&format!("{head}{rows}")));
+    }
+
+    #[test]
+    fn a_run_that_is_a_copy_is_named() {
+        let text = table(|_, r, _, v| (r < 5).then_some(v));
+        let copy: String = text
+            .lines()
+            .filter(|row| row.split(',').nth(1) == Some("1"))
+            .map(|row| row.replacen(",1,", ",5,", 1) + "\n")
+            .collect();
+        assert_eq!(codes(&format!("{text}{copy}")), ["copied-run"]);
     }
 
     #[test]

@@ -107,7 +107,7 @@ pub fn role_cells(name: &str) -> Cells {
 
 /// Reads a table of a positioning test; `None` with errors in `problems`.
 pub fn read(file: &str, text: &str, problems: &mut Diagnostics) -> Option<Measurement> {
-    let sheet = Sheet::parse(file, text, role_cells, problems)?;
+    let sheet = Sheet::parse(file, text, role_cells, problems)?.with_repeats(problems);
     warn_of_unused(&sheet, &["direction"], problems);
     crate::check_temperatures(&sheet, problems);
     crate::check_times(&sheet, false, problems);
@@ -122,7 +122,7 @@ pub fn read_deviations(
     deviation: Dimension,
     problems: &mut Diagnostics,
 ) -> Option<Measurement> {
-    let sheet = Sheet::parse(file, text, role_cells, problems)?;
+    let sheet = Sheet::parse(file, text, role_cells, problems)?.with_repeats(problems);
     warn_of_unused(&sheet, &["direction"], problems);
     crate::check_temperatures(&sheet, problems);
     crate::check_times(&sheet, false, problems);

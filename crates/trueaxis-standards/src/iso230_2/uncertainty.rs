@@ -191,4 +191,36 @@ mod tests {
         assert!((u(Quantity::EUp).unwrap() - 2.0 * (0.4_f64).sqrt()).abs() < 1e-12);
         assert_eq!(u(Quantity::R), None); // R itself is not defined for one direction
     }
+
+    /// Both directions, five runs, 1 µm of drift in a reading, 3 µm of the scale; each by hand.
+    #[test]
+    fn every_parameter_has_its_own_share_of_drift_and_scale() {
+        // Reversal 5 µm, scatter ±1 µm: R is that of both directions, wider than either.
+        let reading = |run: i32, up: bool| f64::from(run % 2) + if up { 5.0 } else { 0.0 };
+        let mut table = "target_mm,run,direction,deviation_um\n".to_owned();
+        for target in [0, 50, 100] {
+            for (run, up) in (1..=5).flat_map(|run| [(run, true), (run, false)]) {
+                let side = if up { "up" } else { "down" };
+                table += &format!("{target},{run},{side},{}\n", reading(run, up));
+            }
+        }
+        let measured = read("t.csv", &table, &mut Diagnostics::new()).unwrap();
+        let shares = vec![Share { name: "device", u: 0.003 }];
+        let budget = Budget { length: 100.0, shares, drift_u: Some(0.001) };
+        let result = evaluate(&measured, Some(budget));
+        let two_sided = 2.0_f64 * (8.0_f64 / 4.0 + 2.0 / 5.0).sqrt();
+        for (quantity, um) in [
+            (Quantity::A, 2.0 * (9.0_f64 + 2.0 / 5.0 + 8.0 / 4.0).sqrt()),
+            (Quantity::ADown, 2.0 * (9.0_f64 + 2.0 / 5.0 + 8.0 / 4.0).sqrt()),
+            (Quantity::E, 2.0 * (9.0_f64 + 2.0 / 5.0).sqrt()),
+            (Quantity::M, 2.0 * (9.0_f64 + 1.0 / 5.0).sqrt()),
+            (Quantity::RUp, 2.0 * (16.0_f64 / 4.0).sqrt()),
+            (Quantity::R, two_sided),
+            (Quantity::B, 2.0 * (2.0_f64 / 5.0).sqrt()),
+            (Quantity::BMean, 2.0 * (2.0_f64 / (5.0 * 3.0)).sqrt()),
+        ] {
+            let u_um = result.expanded_of(quantity).expect("known") * 1e3;
+            assert!((u_um - um).abs() < 1e-9, "{quantity:?}: {u_um} µm, by hand {um}");
+        }
+    }
 }

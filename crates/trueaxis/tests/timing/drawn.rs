@@ -17,7 +17,7 @@ impl Observer for Ends {
     }
 }
 
-fn machine(chain: &str, limits: [&str; 3]) -> Machine {
+pub fn machine(chain: &str, limits: [&str; 3]) -> Machine {
     let mut text = format!("[machine]\nname = \"m\"\nchain = \"{chain}\"\n");
     for axis in ["X", "Y", "Z"] {
         let [v, a, j] = limits;
@@ -34,7 +34,7 @@ fn machine(chain: &str, limits: [&str; 3]) -> Machine {
     machine.unwrap_or_else(|| panic!("{problems:?}"))
 }
 
-fn ends(machine: &Machine, control: Control, text: &str, densify: Densify) -> Vec<(u32, f64)> {
+pub fn ends(machine: &Machine, control: Control, text: &str, densify: Densify) -> Vec<(u32, f64)> {
     let program = Program::new("program", text.as_bytes().to_vec(), control);
     let (mut ends, options) = (Ends::default(), Options { densify, ..Options::default() });
     let run = simulate(machine, &program, &SetUp::default(), &options, &mut [&mut ends]);
@@ -65,7 +65,7 @@ fn assert_same_however_drawn(machine: &Machine, control: Control, text: &str) ->
     default.last().expect("a block").1
 }
 
-const ISSUE: [&str; 3] = ["60 m/min", "2 m/s^2", "20 m/s^3"];
+pub const ISSUE: [&str; 3] = ["60 m/min", "2 m/s^2", "20 m/s^3"];
 
 #[test]
 fn law_lines_and_circles_take_the_same_time_however_drawn() {

@@ -53,7 +53,7 @@ impl Reading<'_> {
         let is_read =
             |h: &str| read.contains(&h) || read.contains(&trueaxis_input::sheet::heading(h).0);
         let cells = |h: &str| if is_read(h) { Cells::Numbers } else { Cells::Unused };
-        let sheet = Sheet::parse(&name, &text, cells, problems)?;
+        let sheet = Sheet::parse(&name, &text, cells, problems)?.with_copies_once(problems);
         for column in sheet.columns.iter().filter(|c| c.cells == Cells::Unused) {
             let message = format!("column `{}` is not read", column.name);
             problems.warn("unused-column", column.place.clone(), message, FORM);
