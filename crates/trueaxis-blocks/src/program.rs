@@ -318,7 +318,12 @@ impl Program {
                 if count > 100 {
                     let message =
                         "more than 100 problems; the remaining ones are not listed".to_owned();
-                    problems.note("too-many-problems", places.of(fault.offset), message, "");
+                    problems.note(
+                        "too-many-problems",
+                        places.of(fault.offset),
+                        message,
+                        "correct the first ones; the others may follow from them",
+                    );
                     return problems;
                 }
                 let place = places.of(fault.offset);

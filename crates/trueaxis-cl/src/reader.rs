@@ -98,7 +98,12 @@ impl<'n> Reader<'n> {
         } else if self.count == MAX_PROBLEMS + 1 {
             let message =
                 format!("more than {MAX_PROBLEMS} problems; the remaining ones are not listed");
-            self.problems.note("too-many-problems", self.place(line), message, "");
+            self.problems.note(
+                "too-many-problems",
+                self.place(line),
+                message,
+                "correct the first ones; the others may follow from them",
+            );
         }
     }
 

@@ -126,7 +126,10 @@ fn run_values(arguments: ValuesArguments) -> Outcome {
         },
         output: arguments.output,
     };
-    // The values know their form.
-    Door { format: crate::output::Format::Text, report: None, force: arguments.force }
-        .ask(&question)
+    // In a file, and as CSV, the values know their form.
+    let format = match (arguments.format, &question.output) {
+        (Format::Json, None) => crate::output::Format::Json,
+        _ => crate::output::Format::Text,
+    };
+    Door { format, report: None, force: arguments.force }.ask(&question)
 }

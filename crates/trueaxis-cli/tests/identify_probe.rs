@@ -49,7 +49,9 @@ fn the_document_has_the_agreed_keys() {
     assert!(found["harmonics"].as_array().is_some_and(|h| h.len() > 2));
     let table = std::fs::read_to_string(table).expect("a table");
     assert_eq!(table.lines().filter(|l| !l.starts_with('#')).count(), 61);
-    // What is there is replaced only if it is of the kind.
+    // What a person has edited is not replaced.
+    let edited = std::fs::read_to_string(&page).expect("a page") + "<!-- seen -->";
+    std::fs::write(&page, edited).expect("written");
     let ran = trueaxis(&["identify", "probe", STUDY, "--table", &page]);
     assert!(ran.status == 2 && ran.err.contains("unwritable-file"), "{}", ran.err);
 }

@@ -125,7 +125,7 @@ fn a_machine_file_with_a_slip_of_the_unit() {
         0,
         "warning",
         IMPLAUSIBLE,
-        &["machine.toml:7", "17453 µrad"],
+        &["machine.toml:7", "17450 µrad"],
     );
     let motion =
         "[motion.X]\nECX = { polynomial = [\"0 urad\", \"0.1 rad\"], scale = \"500 mm\" }\n";

@@ -156,6 +156,12 @@ fn spoilt_files() {
         (good(), table().replacen("0.3", "1e300", 1), "too-large", "t.csv:2"),
         (good(), table().replacen("-60,0", "1e300,0", 1), "too-large", "t.csv:2"),
         (good(), table().replace("x_um", "x_urad"), "wrong-unit", "urad"),
+        (
+            good(),
+            table().replace("x_um", "x_mm").replace(",0.3,", ",30,"),
+            "impossible-value",
+            "t.csv:2",
+        ),
         (good(), table().replace("x_um", "x_furlong"), "unknown-unit", "furlong"),
         (good(), table()[..table().len() - 12].to_owned(), "ragged-row", "t.csv"),
         (good(), String::new(), "empty-table", "no line of headings"),
@@ -185,7 +191,7 @@ fn spoilt_files() {
     }
     for (study, table, code, words) in [
         (good(), radians.to_owned(), "little-turned", "in rad"),
-        (good(), table().replace("x_um", "x_mm").replace(",0.3,", ",30,"), "large-reading", "unit"),
+        (good(), table().replace(",0.3,", ",9000,"), "large-reading", "unit"),
         (
             good(),
             table().replace("0.3,-0.2,0.1", "0.0003,-0.0002,0.0001"),

@@ -7,7 +7,7 @@
 mod client;
 mod command;
 
-use client::{Answer, Served, ask_socket, frame, next, repository, serve_kept};
+use client::{Answer, OPEN, Served, ask_socket, frame, next, repository, serve_kept};
 use command::trueaxis;
 use serde_json::{Value, json};
 use std::io::Write as _;
@@ -63,7 +63,7 @@ fn ask(served: &Served, name: &str, body: &Value) -> Piece {
 
 #[test]
 fn it_is_the_simulation_of_the_command_line() {
-    let served = serve_kept(repository(), &["--port", "0"]);
+    let served = serve_kept(repository(), &OPEN);
     let whole = ask(&served, "simulate", &json!({ "machine": I5, "program": COLLISION }));
     let header = &whole.header;
     let ran = trueaxis(&["simulate", I5, COLLISION, "--no-report", "--format", "json"]);
@@ -171,7 +171,7 @@ fn the_other_answers_agree(served: &Served, header: &Value, duration_s: f64) {
 
 #[test]
 fn what_cannot_be_simulated_is_refused_by_name() {
-    let served = serve_kept(repository(), &["--port", "0"]);
+    let served = serve_kept(repository(), &OPEN);
     let dropped = |text: &str| json!({ "machine": I5, "name": "part.nc", "text": text });
     let bad = served.ask("simulate", &dropped("G21 G90 G94\nG0 X0\nG1 X[5 F600\nM30\n"));
     let error = &bad.json()["error"];
@@ -216,7 +216,7 @@ fn what_cannot_be_simulated_is_refused_by_name() {
 
 #[test]
 fn nobody_waits_for_a_simulation_that_is_stopped() {
-    let served = serve_kept(repository(), &["--port", "0"]);
+    let served = serve_kept(repository(), &OPEN);
     let (_, mut socket) = served.socket("");
     let text = "O1\nG21 G90 G94\nN1 G1 X1 F900\nX2\nGOTO 1\n";
     let body = json!({ "machine": I5, "name": "endless.nc", "text": text, "collisions": false });

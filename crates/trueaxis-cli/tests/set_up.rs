@@ -183,7 +183,7 @@ fn an_edited_program_of_the_set_up_stays() {
     fs::write(&path, "; mine").expect("written");
     let (status, err) = post(&folder, "sinumerik");
     assert!(
-        status == 2 && err.contains("1-length.mpf") && err.contains("another content"),
+        status == 2 && err.contains("1-length.mpf") && err.contains("was edited since"),
         "{err}"
     );
     assert_eq!(fs::read_to_string(&path).expect("a file"), "; mine");

@@ -128,6 +128,8 @@ fn nothing_is_left_behind_after_an_error() {
     }
     // What follows the error is shown on request, with the note that it is not complete.
     let ran = run(&all, &["--keep-going"]);
+    assert!(ran.status == 2 && ran.err.contains("nothing was written"), "{}", ran.err);
+    let ran = run(&all, &["--keep-going", "--force"]);
     assert_eq!(ran.status, 2);
     assert!(
         ran.err.contains("1 error found; the simulation continued after them\n"),
@@ -136,7 +138,7 @@ fn nothing_is_left_behind_after_an_error() {
     );
     let html = std::fs::read_to_string(&page).expect("a report");
     assert!(html.contains("NOT COMPLETE"));
-    assert_eq!(folder.names(), ["broken.nc", "p.csv", "p.html"]);
+    assert_eq!(folder.names(), [".trueaxis-written", "broken.nc", "p.csv", "p.html"]);
 }
 
 #[test]

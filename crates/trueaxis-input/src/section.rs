@@ -84,7 +84,12 @@ impl<'a> SourceText<'a> {
             let message =
                 format!("{} faults; the first {MOST_SYNTAX_FAULTS} are listed", errors.len());
             let place = Place::whole(self.file);
-            self.problems.borrow_mut().note("too-many-problems", place, message, "");
+            self.problems.borrow_mut().note(
+                "too-many-problems",
+                place,
+                message,
+                "correct the first ones; the others may follow from them",
+            );
         }
         for error in errors.into_iter().take(MOST_SYNTAX_FAULTS) {
             let at = error.span().unwrap_or(0..0);

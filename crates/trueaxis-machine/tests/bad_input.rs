@@ -172,7 +172,7 @@ fn nesting_without_end_is_refused_and_not_followed() {
     for text in [deep("[", "]"), deep("{ a = ", "}"), deep("[", ""), dotted, header] {
         let (machine, found) = problems(&text);
         assert!(machine.is_none());
-        assert!(found.iter().any(|d| d.code == "toml-syntax"));
+        assert!(found.iter().any(|d| ["toml-syntax", "over-limit"].contains(&d.code)), "{found:?}");
     }
 }
 
@@ -202,20 +202,22 @@ fn largest_values_stay_finite() {
     for rotation in ["exact", "small-angle"] {
         let mut text = format!(
             "[machine]\nname = \"m\"\nchain = \"w C' A' b X Y Z t\"\nrotation = \"{rotation}\"\n\
-             [tool]\ntip = \"1e12 1e12 1e12 mm\"\n[workpiece]\nplacement = \"1e12 0 -1e12 mm\"\n\
+             [plausible]\nlength_mm = 1e9\ntool_length_mm = 1e9\nlocation_error_um = 1e12\n\
+             location_error_urad = 1e11\n\
+             [tool]\ntip = \"1e9 1e9 1e9 mm\"\n[workpiece]\nplacement = \"1e9 0 -1e9 mm\"\n\
              [location]\n"
         );
         for body in ["w", "C", "A", "X", "Y", "Z", "t"] {
             for component in ["X", "Y", "Z"] {
-                text += &format!("E{component}0{body} = \"1e12 mm\"\n");
+                text += &format!("E{component}0{body} = \"1e9 mm\"\n");
             }
             for component in ["A", "B", "C"] {
-                text += &format!("E{component}0{body} = \"1e12 rad\"\n");
+                text += &format!("E{component}0{body} = \"1e5 rad\"\n");
             }
         }
         let (machine, found) = problems(&text);
         let machine = machine.unwrap_or_else(|| panic!("{found:?}"));
-        let at = [1.0, 1.0, 1e12, -1e12, 1e12, 0.0];
+        let at = [1.0, 1.0, 1e9, -1e9, 1e9, 0.0];
         let errors = machine.errors_at(&at, &[0.0; 6]).expect("constants");
         let deviation = machine.deviation(&at, &errors);
         assert!(deviation.tip_mm.iter().chain(&deviation.axis).all(|v| v.is_finite()));

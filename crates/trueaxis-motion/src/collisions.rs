@@ -218,7 +218,10 @@ mod tests {
     /// The check of the impeller on the gantry whose tool has another length, with the names of its programs.
     fn impeller(length: &str) -> (Collisions, Vec<String>) {
         assert!(SETUP.contains("length = \"160 mm\""));
+        // What would be refused before is accepted here.
+        let accepted = "\n[plausible]\ntool_length_mm = 200_000\n";
         let setup = SETUP.replace("length = \"160 mm\"", &format!("length = \"{length}\""));
+        let setup = setup + accepted;
         let files = Files::new(SetUpFile(setup));
         let named = ProgramFiles {
             files: &files,

@@ -36,6 +36,9 @@ max_acceleration = "1000 m/s^2"
 [axis.Y]
 max_velocity = "1000 m/min"
 max_acceleration = "1000 m/s^2"
+[plausible]
+velocity_m_per_min = 1000
+acceleration_m_per_s2 = 1000
 "#;
 
 /// A cylinder around which the tip goes at this radius and feed.

@@ -87,8 +87,11 @@ fn law_both_directions_are_taken_back_about_the_reference_position() {
     assert!((of("03620").parse::<f64>().unwrap() * step - 200.0).abs() < 1e-9, "{parameters:?}");
     assert!(((points - 1.0) * step - 500.0).abs() < 1e-9);
     let rising = |l: &&String| l.starts_with("N10") && !l.starts_with("N13");
-    let grown: f64 =
-        pitch.iter().filter(rising).map(|l| l.split('P').nth(1).unwrap().parse::<f64>().unwrap()).sum();
+    let grown: f64 = pitch
+        .iter()
+        .filter(rising)
+        .map(|l| l.split('P').nth(1).unwrap().parse::<f64>().unwrap())
+        .sum();
     assert!((grown + 50.0).abs() < 1e-9, "5 µm over 500 mm: {pitch:?}");
 }
 

@@ -21,7 +21,9 @@ impl Sheet {
     pub fn with_repeats(&self, problems: &mut Diagnostics) -> Self {
         let copies = self.copies();
         let states = |role: &str| {
-            self.columns.iter().any(|c| c.cells != Cells::Unused && (c.role() == role || c.name == role))
+            self.columns
+                .iter()
+                .any(|c| c.cells != Cells::Unused && (c.role() == role || c.name == role))
         };
         if states("run") || states("time") || self.is_pasted(&copies) {
             return self.without(&copies, problems);

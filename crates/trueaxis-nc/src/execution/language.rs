@@ -359,7 +359,12 @@ impl<'r> Core<'r> {
         } else {
             let message =
                 format!("more than {MOST_WARNINGS} warnings; the remaining ones are not listed");
-            self.problems.note("too-many-problems", place, message, "");
+            self.problems.note(
+                "too-many-problems",
+                place,
+                message,
+                "correct the first ones; the others may follow from them",
+            );
         }
     }
 

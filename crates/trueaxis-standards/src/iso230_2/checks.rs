@@ -224,7 +224,8 @@ impl Check<'_> {
             }
             let of = *first.entry(all).or_insert(run);
             if of != run {
-                let message = format!("run {run} reads as run {of} at every target, to the last digit");
+                let message =
+                    format!("run {run} reads as run {of} at every target, to the last digit");
                 let hint = "a copy makes R and A too small: delete it; or does the display show too few \
                             digits?";
                 self.warn("copied-run", message, hint);

@@ -115,7 +115,9 @@ impl Question for CompensateTables {
         _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<TablesAnswer> {
-        let compiled = compile(&machine, &order).map_err(|e| refuse(&e, problems)).ok()?;
+        let compiled = compile(&machine, &order)
+            .map_err(|e| refuse(&e, self.machine.place(), problems))
+            .ok()?;
         let piece = match &self.piece {
             Some(path) => {
                 let study = piece(&files, path, &machine, problems)?;
@@ -130,43 +132,50 @@ impl Question for CompensateTables {
     }
 }
 
-fn refuse(error: &TablesError, problems: &mut Diagnostics) {
-    let (code, name, hint) = match error {
+/// An option is the place of what it allows, the machine file that of the rest.
+fn refuse(error: &TablesError, machine: Place, problems: &mut Diagnostics) {
+    let (code, place, hint) = match error {
         TablesError::UnknownAxis { .. } => {
-            ("unknown-axis", "--target", "choose another target; csv takes every axis")
+            ("unknown-axis", argument("--target"), "choose another target; csv takes every axis")
         }
         TablesError::UnknownTravel(_) => {
-            ("unknown-travel", "MACHINE.toml", "state travel = [from, to] of the axis")
+            ("unknown-travel", machine, "state travel = [from, to] of the axis")
         }
         TablesError::Position(_) => (
             "outside-table",
-            "MACHINE.toml",
+            machine,
             "the errors must be known over the whole travel: measure more, or say outside = \"clamp\" or \"extend\"",
         ),
         TablesError::TooLarge { .. } | TablesError::ErrorTooLarge { .. } => (
             "too-large",
-            "--limit",
+            argument("--limit"),
             "is it an error of the machine? then raise --limit or --limit-angle",
         ),
         TablesError::TooManyNodes { .. }
         | TablesError::ErrorNodes { .. }
         | TablesError::GridPoints { .. } => {
-            ("too-many-nodes", "--bound", "allow a larger loss: --bound or --bound-angle")
+            ("too-many-nodes", argument("--bound"), "allow a larger loss: --bound or --bound-angle")
         }
-        TablesError::GridValue { .. } => {
-            ("too-large", "--target", "choose another form; is it an error of the machine?")
-        }
-        TablesError::Increment { .. } | TablesError::ErrorIncrement { .. } => {
-            ("bound-below-increment", "--bound", "allow a larger loss: --bound or --bound-angle")
-        }
+        TablesError::GridValue { .. } => (
+            "too-large",
+            argument("--target"),
+            "choose another form; is it an error of the machine?",
+        ),
+        TablesError::Increment { .. } | TablesError::ErrorIncrement { .. } => (
+            "bound-below-increment",
+            argument("--bound"),
+            "allow a larger loss: --bound or --bound-angle",
+        ),
         TablesError::TooManyTables { .. } => {
-            ("too-many-tables", "--target", "choose another target; csv takes any number")
+            ("too-many-tables", argument("--target"), "choose another target; csv takes any number")
         }
-        TablesError::NotRecovered(_) => {
-            ("not-recovered", "--target", "please report this machine file to the developers")
-        }
+        TablesError::NotRecovered(_) => (
+            "not-recovered",
+            argument("--target"),
+            "please report this machine file to the developers",
+        ),
     };
-    problems.error(code, argument(name), error.to_string(), hint);
+    problems.error(code, place, error.to_string(), hint);
 }
 
 /// The study of a test piece that the tables can be tried on.

@@ -27,7 +27,10 @@ fn law_three_notations_of_a_feed_take_the_same_time() {
         let text = "G90 S1200 M3\nG0 X0 Y0 Z0\nG94 G1 X100 F600\nG95 G1 X0 F0.5\nG93 G1 X100 F6\n\
                     G94 G1 X0 F600\nM30\n";
         for (n, s) in lasts_s(control, text, &[3, 4, 5, 6]).iter().enumerate() {
-            assert!((s - by_hand_s).abs() < 1e-6, "{control:?} block {n}: {s} s, {by_hand_s} s by hand");
+            assert!(
+                (s - by_hand_s).abs() < 1e-6,
+                "{control:?} block {n}: {s} s, {by_hand_s} s by hand"
+            );
         }
     }
     let text = "BEGIN PGM A MM\nTOOL CALL 1 Z S1200\nL X+0 Y+0 Z+0 R0 FMAX M3\nL X+100 F600\n\
