@@ -516,6 +516,19 @@ mod tests {
         assert_eq!(minimum_circumscribed(&[]), Err(Error::TooFewPoints { found: 0, needed: 3 }));
     }
 
+    /// Four points at 9 mm and four at 11 mm, alternately: ISO 1101 has the two circles, the radius is that half way.
+    #[test]
+    fn the_radius_of_the_zone_lies_between_its_circles() {
+        let h = 11.0 / 2.0_f64.sqrt();
+        let inner = [[9.0, 0.0], [0.0, 9.0], [-9.0, 0.0], [0.0, -9.0]];
+        let outer = [[h, h], [-h, h], [-h, -h], [h, -h]];
+        let points: Vec<[f64; 2]> =
+            inner.into_iter().chain(outer).map(|p| [p[0] + 2.0, p[1] - 3.0]).collect();
+        let zone = minimum_zone(&points).unwrap();
+        assert!((zone.radius_mm - 10.0).abs() < 1e-12, "{zone:?}");
+        assert!((zone.inner_mm - 9.0).abs() < 1e-12 && (zone.outer_mm - 11.0).abs() < 1e-12);
+    }
+
     #[test]
     fn a_far_origin_costs_no_digits() {
         // A 3-4-5 circle around (1e6, -2e6): every coordinate is exact.

@@ -60,39 +60,39 @@ fn law_both_directions_are_taken_back_about_the_reference_position() {
     let errors = "[motion.Y]\nEYY = { polynomial = [\"0 um\", \"10 um\"], scale = \"1000 mm\", \
                   reversal = \"2 um\" }";
     let machine = machine(THREE, errors);
-    for target in [Target::Fanuc, Target::Isg] {
+    // Points of FANUC are even steps from the reference position, here 166.6666 mm; between two it adds one value.
+    let step = 166.6666;
+    for (target, places) in
+        [(Target::Fanuc, [-step, 0.0, step]), (Target::Isg, [-200.0, 0.0, 300.0])]
+    {
         let compiled = compile(&machine, &Order::of(target)).unwrap();
-        for (y, side) in [-200.0, 0.0, 300.0].into_iter().flat_map(|y| [(y, 1.0), (y, -1.0)]) {
+        for (y, side) in places.into_iter().flat_map(|y| [(y, 1.0), (y, -1.0)]) {
             let added = at(&machine, &compiled, [500.0, y, -7.0, 0.0, 0.0, 0.0], side);
             let by_hand_um = -(10.0 * y / 1000.0 + side);
             let off_um = added[1] * 1e3 - by_hand_um;
             assert!(off_um.abs() < 0.051, "{target:?} {y} {side}: {added:?}, {by_hand_um} by hand");
         }
     }
-    // The lines themselves: point 0 at −200 mm, the reference position at the point of 0 mm, −1 µm there rising,
-    // 2 µm more falling, and −10 µm/m in units of 0.1 µm.
+    // The lines themselves, in units of 0.1 µm: −1 µm at the reference position rising, 2 µm more falling. Five points,
+    // the third is the reference position; from −200 mm, where the travel ends, to the second +1.0 to +0.667 µm, then
+    // −1.667 µm twice, and from −2.667 to −4.0 µm at 300 mm.
     let compiled = compile(&machine, &Order::of(Target::Fanuc)).unwrap();
     let text = |name: &str| {
         let file = compiled.files.iter().find(|f| f.name == name).unwrap();
-        file.text.replace('\r', "").lines().map(str::to_owned).collect::<Vec<_>>()
+        file.text.replace('\r', "")
     };
     let (parameters, pitch) = (text("PARAM.TXT"), text("PITCH.TXT"));
-    let of = |number: &str| {
-        let line = parameters.iter().find(|l| l.starts_with(&format!("N{number}Q1A2P")));
-        line.unwrap_or_else(|| panic!("{number} in {parameters:?}")).split('P').nth(1).unwrap()
-    };
-    let step: f64 = of("03624").parse().unwrap();
-    let points = of("03622").parse::<f64>().unwrap() + 1.0;
-    assert_eq!((of("01850"), of("03627"), of("03621")), ("-10", "20", "0"));
-    assert!((of("03620").parse::<f64>().unwrap() * step - 200.0).abs() < 1e-9, "{parameters:?}");
-    assert!(((points - 1.0) * step - 500.0).abs() < 1e-9);
-    let rising = |l: &&String| l.starts_with("N10") && !l.starts_with("N13");
-    let grown: f64 = pitch
-        .iter()
-        .filter(rising)
-        .map(|l| l.split('P').nth(1).unwrap().parse::<f64>().unwrap())
-        .sum();
-    assert!((grown + 50.0).abs() < 1e-9, "5 µm over 500 mm: {pitch:?}");
+    for line in
+        ["N01850Q1A2P-10", "N03620Q1A2P2", "N03622Q1A2P4", "N03624Q1A2P166.666600", "N03627Q1A2P20"]
+    {
+        assert!(parameters.lines().any(|l| l == line), "{line} in\n{parameters}");
+    }
+    for (number, grown) in [(1, -3), (2, -17), (3, -17), (4, -13)] {
+        for from in [10_000, 13_000] {
+            let line = format!("N{}Q0P{grown}", from + number);
+            assert!(pitch.lines().any(|l| l == line), "{line} in\n{pitch}");
+        }
+    }
 }
 
 /// A table that stands too far in +X leaves the tool too short: the control adds a positive value.

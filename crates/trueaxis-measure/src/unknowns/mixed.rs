@@ -22,6 +22,9 @@ const STEPS: usize = 60;
 /// Steps that change no size by more than this share end it.
 const SETTLED: f64 = 1e-3;
 
+/// A direction with less than this part of the largest square is rounding.
+const NO_SQUARE: f64 = 1e-10;
+
 /// More degrees of freedom than this make no difference.
 const MANY: f64 = 1e6;
 /// Less information on the logarithm of a size is none.
@@ -111,8 +114,9 @@ impl Rest {
     pub fn sizes(&self, groups: &[Range<usize>], noise_is_free: bool) -> Sizes {
         let mut t: Vec<f64> = vec![1.0; groups.len()];
         let mut noise = 1.0_f64;
+        let factor = Factor::of(self, groups);
         for _ in 0..STEPS {
-            let Some(state) = self.state(groups, &t, noise) else { break };
+            let Some(state) = factor.state(&t, noise) else { break };
             let mut change = 0.0_f64;
             for (g, t) in t.iter_mut().enumerate().filter(|(_, t)| **t > 0.0) {
                 let next = state.squares[g] / state.explained[g].max(1e-12);
@@ -130,7 +134,7 @@ impl Rest {
                 break;
             }
         }
-        let state = self.state(groups, &t, noise);
+        let state = factor.state(&t, noise);
         let (deviance, effective) =
             state.map_or((f64::INFINITY, 0.0), |s| (s.deviance, s.explained.iter().sum()));
         Sizes { times: t.into_iter().map(f64::sqrt).collect(), noise, deviance, effective }
@@ -139,7 +143,7 @@ impl Rest {
     /// −2 ln L of these sizes. Unit: 1.
     pub fn deviance(&self, groups: &[Range<usize>], times: &[f64], noise: f64) -> f64 {
         let t: Vec<f64> = times.iter().map(|t| t * t).collect();
-        self.state(groups, &t, noise).map_or(f64::INFINITY, |s| s.deviance)
+        Factor::of(self, groups).state(&t, noise).map_or(f64::INFINITY, |s| s.deviance)
     }
 
     /// How well the sizes are known: the covariance of ln t of every group, then of ln σ² where the noise was found,
@@ -197,40 +201,116 @@ impl Rest {
         }
         Some(covariance)
     }
+}
 
-    fn state(&self, groups: &[Range<usize>], t: &[f64], noise: f64) -> Option<State> {
-        let variance = noise * noise;
-        let of = |g: usize| groups[g].clone().map(move |j| (j, g));
-        let members: Vec<(usize, usize)> =
-            (0..groups.len()).filter(|g| t[*g] > 0.0).flat_map(of).collect();
-        let m = members.len();
-        let matrix = DMatrix::from_fn(m, m, |a, b| {
-            let (i, g) = members[a];
-            let own = if a == b { 1.0 / t[g] } else { 0.0 };
-            self.s[(i, members[b].0)] / variance + own
-        });
-        let r = DVector::from_fn(m, |a, _| self.r[members[a].0]);
-        let half = matrix.cholesky()?;
-        let v = half.solve(&r) / variance;
-        let mut state = State {
-            squares: vec![0.0; groups.len()],
-            explained: vec![0.0; groups.len()],
-            residual: 0.0,
-            deviance: self.freedom * variance.ln() + (self.square - r.dot(&v)) / variance,
-        };
-        // Of the inverse only the diagonal is needed: the squares of the columns of L⁻¹.
-        let lower = half.l().solve_lower_triangular(&DMatrix::identity(m, m))?;
-        let mut penalty = 0.0;
-        for (a, (_, g)) in members.iter().enumerate() {
-            state.squares[*g] += v[a] * v[a];
-            let own = lower.column(a).norm_squared();
-            state.explained[*g] += 1.0 - own / t[*g];
-            state.deviance += t[*g].ln() + 2.0 * half.l_dirty()[(a, a)].ln();
-            penalty += variance * v[a] * v[a] / t[*g];
+/// S of some groups as W Wᵀ, with as many columns as it has rank: readings are often fewer than what may explain them.
+///
+/// ```text
+///     A = σ² + WᵀTW      v = T W A⁻¹ z      r = W z      ln|1 + T S/σ²| = ln|A| − k ln σ²
+///     Σ (1 − C_jj/t_g) = t_g tr(M_g A⁻¹)      M_g = W_gᵀ W_g      Σ v² = t_g² uᵀ M_g u, u = A⁻¹ z
+/// ```
+///
+/// by the identity of Woodbury; docs/model.md eq. 303, 304.
+struct Factor<'a> {
+    rest: &'a Rest,
+    /// M of every group.
+    squares: Vec<DMatrix<f64>>,
+    z: DVector<f64>,
+}
+
+impl<'a> Factor<'a> {
+    fn of(rest: &'a Rest, groups: &[Range<usize>]) -> Self {
+        let members: Vec<usize> = groups.iter().cloned().flatten().collect();
+        let (w, pivots) = pivoted(&rest.s, &members);
+        let k = pivots.len();
+        let mut z = DVector::zeros(k);
+        for (j, pivot) in pivots.iter().enumerate() {
+            let before: f64 = (0..j).map(|i| w[(*pivot, i)] * z[i]).sum();
+            z[j] = (rest.r[members[*pivot]] - before) / w[(*pivot, j)];
         }
-        state.residual = (self.square - r.dot(&v) - penalty).max(0.0);
+        let mut begin = 0;
+        let squares = groups.iter().map(|group| {
+            let own = w.rows(begin, group.len());
+            begin += group.len();
+            own.transpose() * own
+        });
+        Self { rest, squares: squares.collect(), z }
+    }
+
+    fn state(&self, t: &[f64], noise: f64) -> Option<State> {
+        let (variance, k) = (noise * noise, self.z.len());
+        let mut a = DMatrix::identity(k, k) * variance;
+        for (m, t) in self.squares.iter().zip(t).filter(|(_, t)| **t > 0.0) {
+            a.zip_apply(m, |a, m| *a += t * m);
+        }
+        let lower = a.cholesky()?.unpack();
+        let below = inverse_of_lower(&lower);
+        let u = below.tr_mul(&(&below * &self.z));
+        // A product of two matrices is blocked, `tr_mul` is not.
+        let inverse = below.transpose() * &below;
+        let explained_square = self.z.dot(&self.z) - variance * self.z.dot(&u);
+        let ln_a = 2.0 * (0..k).map(|i| lower[(i, i)].ln()).sum::<f64>();
+        let mut state = State {
+            squares: vec![0.0; t.len()],
+            explained: vec![0.0; t.len()],
+            residual: 0.0,
+            deviance: self.rest.freedom * variance.ln()
+                + (self.rest.square - explained_square) / variance
+                + ln_a
+                - k as f64 * variance.ln(),
+        };
+        let mut penalty = 0.0;
+        for (g, m) in self.squares.iter().enumerate().filter(|(g, _)| t[*g] > 0.0) {
+            state.squares[g] = t[g] * t[g] * u.dot(&(m * &u));
+            state.explained[g] = t[g] * m.dot(&inverse);
+            penalty += variance * state.squares[g] / t[g];
+        }
+        state.residual = (self.rest.square - explained_square - penalty).max(0.0);
         Some(state)
     }
+}
+
+/// W with W Wᵀ = S of these members, and the row of each pivot: Cholesky with the largest remaining diagonal first.
+fn pivoted(s: &DMatrix<f64>, members: &[usize]) -> (DMatrix<f64>, Vec<usize>) {
+    let m = members.len();
+    let mut remaining: Vec<f64> = members.iter().map(|j| s[(*j, *j)]).collect();
+    let least = NO_SQUARE * remaining.iter().copied().fold(0.0, f64::max);
+    let (mut columns, mut pivots): (Vec<DVector<f64>>, Vec<usize>) = (Vec::new(), Vec::new());
+    while pivots.len() < m {
+        let largest = (0..m).max_by(|a, b| remaining[*a].total_cmp(&remaining[*b]));
+        let Some(pivot) = largest.filter(|i| remaining[*i] > least) else { break };
+        let root = remaining[pivot].sqrt();
+        let mut column = DVector::from_fn(m, |i, _| s[(members[i], members[pivot])]);
+        for before in &columns {
+            column.axpy(-before[pivot], before, 1.0);
+        }
+        column /= root;
+        // Rounding must not bring back what was taken out.
+        pivots.iter().for_each(|p| column[*p] = 0.0);
+        remaining.iter_mut().zip(column.iter()).for_each(|(d, c)| *d -= c * c);
+        remaining[pivot] = f64::NEG_INFINITY;
+        columns.push(column);
+        pivots.push(pivot);
+    }
+    let w = DMatrix::from_fn(m, columns.len(), |i, j| columns[j][i]);
+    (w, pivots)
+}
+
+/// The inverse of a lower triangle: half of it is zero from the start, which a general solver would not know.
+fn inverse_of_lower(lower: &DMatrix<f64>) -> DMatrix<f64> {
+    let k = lower.nrows();
+    let mut inverse = DMatrix::zeros(k, k);
+    for j in 0..k {
+        inverse[(j, j)] = 1.0;
+        for i in j..k {
+            let value = inverse[(i, j)] / lower[(i, i)];
+            inverse[(i, j)] = value;
+            let below = lower.view((i + 1, i), (k - i - 1, 1));
+            let mut rest = inverse.view_mut((i + 1, j), (k - i - 1, 1));
+            rest.zip_apply(&below, |r, l| *r -= value * l);
+        }
+    }
+    inverse
 }
 
 /// What a covariance follows from: the unknowns, the listed ones first, then the groups.
@@ -301,6 +381,96 @@ fn scale(matrix: &mut DMatrix<f64>, rows: &[f64], columns: &[f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Eq. 303 and 304 as they stand, over all members.
+    fn plain(rest: &Rest, groups: &[Range<usize>], t: &[f64], noise: f64) -> Option<State> {
+        let variance = noise * noise;
+        let of = |g: usize| groups[g].clone().map(move |j| (j, g));
+        let members: Vec<(usize, usize)> =
+            (0..groups.len()).filter(|g| t[*g] > 0.0).flat_map(of).collect();
+        let m = members.len();
+        let matrix = DMatrix::from_fn(m, m, |a, b| {
+            let (i, g) = members[a];
+            let own = if a == b { 1.0 / t[g] } else { 0.0 };
+            rest.s[(i, members[b].0)] / variance + own
+        });
+        let r = DVector::from_fn(m, |a, _| rest.r[members[a].0]);
+        let half = matrix.cholesky()?;
+        let v = half.solve(&r) / variance;
+        let mut state = State {
+            squares: vec![0.0; groups.len()],
+            explained: vec![0.0; groups.len()],
+            residual: 0.0,
+            deviance: rest.freedom * variance.ln() + (rest.square - r.dot(&v)) / variance,
+        };
+        // Of the inverse only the diagonal is needed: the squares of the columns of L⁻¹.
+        let lower = half.l().solve_lower_triangular(&DMatrix::identity(m, m))?;
+        let mut penalty = 0.0;
+        for (a, (_, g)) in members.iter().enumerate() {
+            state.squares[*g] += v[a] * v[a];
+            let own = lower.column(a).norm_squared();
+            state.explained[*g] += 1.0 - own / t[*g];
+            state.deviance += t[*g].ln() + 2.0 * half.l_dirty()[(a, a)].ln();
+            penalty += variance * v[a] * v[a] / t[*g];
+        }
+        state.residual = (rest.square - r.dot(&v) - penalty).max(0.0);
+        Some(state)
+    }
+
+    /// Members that are alike, more members than readings, groups of nothing, any noise.
+    #[test]
+    fn law_the_factor_gives_what_all_members_give() {
+        let mut state = 1_u64;
+        let mut random = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+        };
+        for (n, sizes) in
+            [(8, vec![3, 4]), (12, vec![10, 15, 5]), (40, vec![6, 6, 3]), (5, vec![1; 9])]
+        {
+            let q: usize = sizes.iter().sum();
+            let mut g = DMatrix::from_fn(n, q, |_, _| 6.0 * random());
+            let twin = g.column(0).into_owned();
+            g.set_column(q - 1, &twin);
+            let x = DMatrix::from_fn(n, 2, |i, k| if k == 0 { 1.0 } else { i as f64 });
+            let mut all = DMatrix::zeros(n, 2 + q);
+            all.columns_mut(0, 2).copy_from(&x);
+            all.columns_mut(2, q).copy_from(&g);
+            let y = DVector::from_fn(n, |_, _| 9.0 * random());
+            let (normal, gradient) = (all.tr_mul(&all), all.tr_mul(&y));
+            let square = y.norm_squared();
+            let sums = Sums { normal: &normal, gradient: &gradient, square, numbers: n, listed: 2 };
+            let rest =
+                Rest::of(sums, &DVector::from_element(2, 1e3), &vec![1.0; q]).expect("finite");
+            let mut begin = 0;
+            let groups: Vec<Range<usize>> = sizes
+                .iter()
+                .map(|count| {
+                    begin += count;
+                    begin - count..begin
+                })
+                .collect();
+            let factor = Factor::of(&rest, &groups);
+            for (t, noise) in [(1.0, 1.0), (0.01, 1.7), (30.0, 0.6)] {
+                let t: Vec<f64> = (0..sizes.len())
+                    .map(|g| if g == 1 { 0.0 } else { t * (1.0 + g as f64) })
+                    .collect();
+                let (fast, slow) = (
+                    factor.state(&t, noise).expect("some"),
+                    plain(&rest, &groups, &t, noise).expect("some"),
+                );
+                let near = |a: f64, b: f64| (a - b).abs() < 1e-6 * (1.0 + b.abs());
+                assert!(near(fast.deviance, slow.deviance), "{} {}", fast.deviance, slow.deviance);
+                assert!(near(fast.residual, slow.residual), "{} {}", fast.residual, slow.residual);
+                for g in 0..sizes.len() {
+                    assert!(near(fast.squares[g], slow.squares[g]), "{n} {g} {}", fast.squares[g]);
+                    assert!(near(fast.explained[g], slow.explained[g]), "{n} {g}");
+                }
+            }
+        }
+    }
 
     #[test]
     fn the_size_of_one_group_in_balanced_readings() {
