@@ -4811,8 +4811,7 @@ export interface IdentifyErrors {
    */
   test: TestEntry;
   /**
-   * How many standard uncertainties contain a value with 95 %: 2, or Student's t where the noise was found from the
-   * residual. Unit: 1.
+   * The largest coverage factor of the values. Unit: 1.
    */
   coverage_factor: number;
   /**
@@ -4994,6 +4993,14 @@ export interface FoundEntry {
    * Value divided by its standard uncertainty. Unit: 1.
    */
   z: number | null;
+  /**
+   * Effective degrees of freedom of u; null if they are infinite or the value is not observable. Unit: 1.
+   */
+  degrees_of_freedom: number | null;
+  /**
+   * k for 95.45 %; null if not observable. Unit: 1.
+   */
+  coverage_factor: number | null;
   [k: string]: number | null;
 }
 /**
@@ -9613,8 +9620,7 @@ export interface ServeIdentifyDiagnosed {
    */
   test: TestEntry;
   /**
-   * How many standard uncertainties contain a value with 95 %: 2, or Student's t where the noise was found from the
-   * residual. Unit: 1.
+   * The largest coverage factor of the values. Unit: 1.
    */
   coverage_factor: number;
   /**

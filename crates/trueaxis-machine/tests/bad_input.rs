@@ -204,7 +204,7 @@ fn largest_values_stay_finite() {
             "[machine]\nname = \"m\"\nchain = \"w C' A' b X Y Z t\"\nrotation = \"{rotation}\"\n\
              [plausible]\nlength_mm = 1e9\ntool_length_mm = 1e9\nlocation_error_um = 1e12\n\
              location_error_urad = 1e11\n\
-             [tool]\ntip = \"1e9 1e9 1e9 mm\"\n[workpiece]\nplacement = \"1e9 0 -1e9 mm\"\n\
+             [tool]\ntip = \"5e8 5e8 5e8 mm\"\n[workpiece]\nplacement = \"5e8 0 -5e8 mm\"\n\
              [location]\n"
         );
         for body in ["w", "C", "A", "X", "Y", "Z", "t"] {
