@@ -14,9 +14,7 @@ const FILES: [&str; 2] = ["conditions.toml", "readings.csv"];
 
 fuzz_target!(|data: &[u8]| {
     let (first, rest) = data.split_first().unwrap_or((&0, &[]));
-    let question = Evaluate {
-        conditions: Some(FILES[0].into()),
-        ..asking::evaluation(*first, FILES[1])
-    };
+    let question =
+        Evaluate { conditions: Some(FILES[0].into()), ..asking::evaluation(*first, FILES[1]) };
     asking::ask_with(&question, &FILES, rest);
 });

@@ -141,7 +141,8 @@ mod tests {
         }
         assert_eq!(Curve::Line { from, to }.span_mm(), 8.0);
         // A short piece of a very large circle is no wider than it is long.
-        let flat = Curve::arc(from, Vec3::new(3.0, 1.0, 0.0), &arc(Plane::Xy, [1e9, 0.5], 1, false));
+        let flat =
+            Curve::arc(from, Vec3::new(3.0, 1.0, 0.0), &arc(Plane::Xy, [1e9, 0.5], 1, false));
         assert!((flat.span_mm() - 1.0).abs() < 1e-6, "{}", flat.span_mm());
     }
 

@@ -93,9 +93,8 @@ impl Visits {
         let off = |station: &Command| {
             let from = ends.partition_point(|end| end[along] < station[along]);
             let (below, above) = ends.split_at(from);
-            let apart = |a: &Command| {
-                a.iter().zip(station).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-            };
+            let apart =
+                |a: &Command| a.iter().zip(station).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             let nearest = |nearest: f64, end: &Command| {
                 let farther = (end[along] - station[along]).abs() >= nearest;
                 if farther { Err(nearest) } else { Ok(nearest.min(apart(end))) }
