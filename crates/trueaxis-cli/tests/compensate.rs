@@ -347,5 +347,5 @@ fn values_that_are_refused_are_a_document_too() {
     assert_eq!(ran.json()["schema"], "trueaxis/refused/1");
     assert_eq!(ran.json()["diagnostics"][0]["code"], "missing-key");
     let sound = trueaxis(&["compensate", "values", MILL, "--axis", "X", "--format", "json"]);
-    assert!(sound.json()["diagnostics"].is_array(), "every document has it: {}", sound.out);
+    assert!(sound.json()["diagnostics"].is_array(), "every document has that key: {}", sound.out);
 }
