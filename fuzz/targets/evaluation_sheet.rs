@@ -9,7 +9,7 @@ use libfuzzer_sys::fuzz_target;
 use trueaxis::input::Diagnostics;
 use trueaxis::report::{Evaluation, EvaluationDocument, document, evaluation_report};
 use trueaxis::verify::conditions::Conditions;
-use trueaxis::verify::import::Import;
+use trueaxis::verify::import::{From, Import};
 use trueaxis::verify::{Request, Standard, evaluate};
 
 fuzz_target!(|data: &[u8]| {
@@ -20,7 +20,9 @@ fuzz_target!(|data: &[u8]| {
     for standard in Standard::ALL {
         for import in Import::ALL {
             let mut problems = Diagnostics::new();
-            let Some(data) = import.read(standard, "t.csv", table, None, &mut problems) else {
+            let source =
+                From { standard, file: "t.csv", text: table, feature: None, mapping: None };
+            let Some(data) = import.read(&source, &mut problems) else {
                 assert!(problems.has_errors());
                 continue;
             };

@@ -6,7 +6,7 @@ mod tables;
 
 use crate::arguments::MachineArguments;
 use crate::door::Door;
-use crate::output::Outcome;
+use crate::output::{self, Outcome};
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use trueaxis::predict::holes::Compensation;
@@ -126,10 +126,8 @@ fn run_values(arguments: ValuesArguments) -> Outcome {
         },
         output: arguments.output,
     };
-    // In a file, and as CSV, the values know their form.
-    let format = match (arguments.format, &question.output) {
-        (Format::Json, None) => crate::output::Format::Json,
-        _ => crate::output::Format::Text,
-    };
+    // The values know their form; on standard output JSON is that of every command, refusals too.
+    let is_document = question.form == ValuesForm::Json && question.output.is_none();
+    let format = if is_document { output::Format::Json } else { output::Format::Text };
     Door { format, report: None, force: arguments.force }.ask(&question)
 }

@@ -336,3 +336,16 @@ fn tables_that_would_leave_the_workpiece_out_are_refused() {
         assert_eq!(ran.status, 0, "{target}: {}", ran.err);
     }
 }
+
+/// A program that asks for JSON gets one document, also where nothing can be computed.
+#[test]
+fn values_that_are_refused_are_a_document_too() {
+    let folder = Folder::new("compensate-refused");
+    let broken = folder.file("machine.toml", "[machine]\nname = \"m\"\n");
+    let ran = trueaxis(&["compensate", "values", &broken, "--axis", "X", "--format", "json"]);
+    assert_eq!(ran.status, 2, "{}", ran.err);
+    assert_eq!(ran.json()["schema"], "trueaxis/refused/1");
+    assert_eq!(ran.json()["diagnostics"][0]["code"], "missing-key");
+    let sound = trueaxis(&["compensate", "values", MILL, "--axis", "X", "--format", "json"]);
+    assert!(sound.json()["diagnostics"].is_array(), "every document has that key: {}", sound.out);
+}

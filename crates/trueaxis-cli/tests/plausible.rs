@@ -170,3 +170,65 @@ fn a_test_of_the_standards_with_a_heading_of_the_wrong_unit() {
     let ran = trueaxis(&stated);
     assert_eq!(ran.status, 0, "{}", ran.err);
 }
+
+/// A limit of metres lets everything pass: a slip of the unit there decides more than one in a reading.
+#[test]
+fn a_limit_or_an_uncertainty_with_a_slip_of_the_unit() {
+    let laser = "examples/07_verify/x-axis-laser.csv";
+    let folder = Folder::new("plausible-limits");
+    let file = |limit: &str| {
+        folder.file("limits.toml", format!("name = \"x\"\n[tolerance]\nA = \"{limit}\"\n"))
+    };
+    let evaluate = ["evaluate", "iso230-2", laser];
+    let words = ["limits.toml:3", "reading_um"];
+    let given = file("16 m");
+    found(&[&evaluate[..], &["--tolerances", &given]].concat(), 2, "error", IMPOSSIBLE, &words);
+    let given = file("5 mm");
+    found(&[&evaluate[..], &["--tolerances", &given]].concat(), 0, "warning", IMPLAUSIBLE, &words);
+    let typed = [&evaluate[..], &["--tolerance", "A=16 m"]].concat();
+    found(&typed, 2, "error", IMPOSSIBLE, &["--tolerance", "16 m"]);
+    let text = "name = \"x\"\n[tolerance]\nA = \"16 m\"\n[plausible]\nreading_um = 2e7\n";
+    let stated = folder.file("stated.toml", text);
+    let ran = trueaxis(&[&evaluate[..], &["--tolerances", &stated, "--format", "json"]].concat());
+    assert!(ran.status < 2 && diagnostics(&ran).iter().all(|d| d.1 != IMPOSSIBLE), "{}", ran.err);
+
+    let plate = fs::read_to_string(root().join("examples/07_verify/moody-1955.toml")).unwrap();
+    let readings = "examples/07_verify/moody-1955.csv";
+    for (old, new, key, status) in [
+        // With such readings nothing is proved.
+        ("0.25 arcsec", "0.25 deg", "noise_urad", 1),
+        ("tolerance = \"8 um\"", "tolerance = \"8 mm\"", "reading_um", 0),
+    ] {
+        let conditions = folder.file("plate.toml", plate.replace(old, new));
+        let plate = ["evaluate", "iso230-1", readings, "--conditions", &conditions];
+        found(&plate, status, "warning", IMPLAUSIBLE, &[key]);
+    }
+
+    let study = fs::read_to_string(root().join("examples/03_predict/cone-on-i5.toml")).unwrap();
+    let tolerances =
+        folder.file("allowed.toml", "source = \"x\"\n[tolerance]\nroundness_mzc = \"100 m\"\n");
+    let study = study.replace("../../", &format!("{}/", root().display())).replacen(
+        "name =",
+        &format!("tolerances = \"{tolerances}\"\nname ="),
+        1,
+    );
+    let study = folder.file("study.toml", study);
+    found(&["predict", &study], 2, "error", IMPOSSIBLE, &["allowed.toml:3", "reading_um"]);
+}
+
+/// The name of a file is as long as who wrote it wants.
+#[test]
+fn a_file_name_of_a_megabyte_is_cut_in_messages() {
+    let folder = Folder::new("plausible-long-name");
+    let text = fs::read_to_string(root().join("examples/05_identify/lathe-thermal.toml")).unwrap();
+    let name = format!("\"{}.csv\", \"", "a".repeat(1_000_000));
+    let study = folder
+        .file("study.toml", text.replacen("\"lathe-thermal", &format!("{name}lathe-thermal"), 1));
+    let ran = trueaxis(&["identify", "thermal", &study, "--format", "json"]);
+    assert_eq!(ran.status, 2);
+    assert!(ran.err.len() < 100_000 && ran.out.len() < 100_000, "{} bytes", ran.err.len());
+    let json = ran.json();
+    let places = json["diagnostics"].as_array().unwrap().iter();
+    let longest = places.map(|d| d["file"].as_str().unwrap().chars().count()).max();
+    assert_eq!(longest, Some(2000));
+}

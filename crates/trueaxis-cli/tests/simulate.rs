@@ -401,3 +401,31 @@ fn speeds_and_tools_that_the_machine_does_not_have_are_reported() {
     let surface = "G21 G90\nG96 S50000 M3\nG1 X1 F100\nG97 S50001\nM2\n";
     assert_eq!(asked_of_the_engraver("linuxcnc", surface).1, told(&[("spindle-speed", 4)]));
 }
+
+/// 6.2091 without its point: kilometres would be cut into pieces for minutes.
+#[test]
+fn a_move_that_is_longer_than_any_machine_is_refused_with_its_block() {
+    let folder = Folder::new("simulate-far");
+    let begin = "G21 G17 G90 G94\nG0 X0 Y0 Z-10\n";
+    for far in [
+        "G1 X62091 F600\nG1 X-6209100",
+        "G0 X0\nG0 Y6209100",
+        "G0 X1\nG53 G0 X6209100",
+        "G0 X2\nG3 X2 Y0 I-6209100 J0 F600",
+    ] {
+        let program = folder.file("far.nc", format!("{begin}{far}\nM30\n"));
+        let ran = run(&["simulate", MILL, &program, "--control", "fanuc"], &["--format", "json"]);
+        let errors: Vec<_> = ran.json()["diagnostics"]
+            .as_array()
+            .expect("diagnostics")
+            .iter()
+            .filter(|d| d["severity"] == "error")
+            .map(|d| (d["code"].clone(), d["line"].as_u64()))
+            .collect();
+        assert_eq!((ran.status, errors), (2, vec![("impossible-value".into(), Some(4))]), "{far}");
+    }
+    // 62 m are beyond the travel; what that means is shown.
+    let program = folder.file("far.nc", format!("{begin}G1 X62091 F600\nM30\n"));
+    let ran = run(&["simulate", MILL, &program, "--control", "fanuc"], &[]);
+    assert!(ran.status == 1 && ran.out.contains("over-travel"), "{}{}", ran.out, ran.err);
+}

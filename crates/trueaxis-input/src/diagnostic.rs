@@ -145,10 +145,11 @@ impl Diagnostics {
         found
     }
 
-    /// Adds a diagnostic; of a message or a hint longer than [`LONGEST_MESSAGE`](crate::limits::LONGEST_MESSAGE) the
-    /// beginning and the end.
+    /// Adds a diagnostic; of a message, a hint or the name of a file longer than
+    /// [`LONGEST_MESSAGE`](crate::limits::LONGEST_MESSAGE) the beginning and the end.
     pub fn add(&mut self, mut diagnostic: Diagnostic) {
-        for text in [&mut diagnostic.message, &mut diagnostic.hint] {
+        let Diagnostic { message, hint, place, .. } = &mut diagnostic;
+        for text in [message, hint, &mut place.file] {
             if let Cow::Owned(shorter) = cut(text) {
                 *text = shorter;
             }

@@ -25,7 +25,7 @@ use super::densify::Densify;
 use super::densify::MOST_PIECES;
 use super::setup::SetUp;
 use super::timing::Element;
-use fault::{fault, too_many_pieces};
+use fault::{fault, no_farther_than_a_hall, too_many_pieces};
 use trueaxis_geometry::frame::{Direction, Workpiece, inverse3};
 use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::Machine;
@@ -429,6 +429,7 @@ impl<'m> AxisPath<'m> {
             count = count.max(super::densify::pieces(curve.chords(chord_mm)));
         }
         if length_mm.is_finite() && turned.is_finite() {
+            no_farther_than_a_hall(m, curve.span_mm() * self.scale(curve))?;
             return self.bounded(m, count);
         }
         let message = "the target of the move is not finite".to_owned();

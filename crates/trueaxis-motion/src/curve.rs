@@ -84,6 +84,16 @@ impl Curve {
         }
     }
 
+    /// No two points of it lie farther apart, mm; turns do not count.
+    pub fn span_mm(&self) -> f64 {
+        match *self {
+            Self::Line { from, to } => (to - from).norm(),
+            Self::Helix { arm, radius_change, rise, .. } => {
+                (2.0 * arm.norm() + radius_change.abs()).hypot(rise).min(self.length_mm())
+            }
+        }
+    }
+
     /// Pieces so that no chord leaves the curve by more than a tolerance.
     ///
     /// ```text
@@ -119,6 +129,21 @@ mod tests {
         // The other direction: three quarters.
         let rest = Curve::arc(from, to, &arc(Plane::Xy, [0.0, 0.0], 1, false));
         assert!((rest.length_mm() - 15.0 * std::f64::consts::PI).abs() < 1e-12);
+    }
+
+    #[test]
+    fn turns_make_a_curve_longer_but_not_wider() {
+        let (from, to) = (Vec3::new(3.0, 0.0, 0.0), Vec3::new(3.0, 0.0, 8.0));
+        for turns in [1, 1000] {
+            let helix = Curve::arc(from, to, &arc(Plane::Xy, [0.0, 0.0], turns, true));
+            assert!((helix.span_mm() - 10.0).abs() < 1e-12); // 6 across, 8 up
+            assert!(helix.length_mm() > 18.0 * f64::from(turns));
+        }
+        assert_eq!(Curve::Line { from, to }.span_mm(), 8.0);
+        // A short piece of a very large circle is no wider than it is long.
+        let flat =
+            Curve::arc(from, Vec3::new(3.0, 1.0, 0.0), &arc(Plane::Xy, [1e9, 0.5], 1, false));
+        assert!((flat.span_mm() - 1.0).abs() < 1e-6, "{}", flat.span_mm());
     }
 
     #[test]

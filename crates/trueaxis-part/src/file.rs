@@ -5,6 +5,7 @@ use crate::testpiece::{IndexName, NasMounting, TestPiece};
 use crate::tolerance::{Tolerance, Tolerances};
 use std::f64::consts::PI;
 use std::path::Path;
+use trueaxis_input::plausible::Quantity;
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, Section, SourceText};
 
 /// The shapes that a file can describe; a new test piece is a new variant.
@@ -366,11 +367,11 @@ fn tolerance(section: &Section<'_>, item: &Item<'_>, index: IndexName) -> Option
     let (limit, source) = if item.is_table() {
         item.section(&section.path(index.key), |s| {
             let limit = s.require("limit", "write a length such as \"0.1 mm\"");
-            let value = limit.as_ref().and_then(|i| i.quantity(Dimension::Length));
+            let value = limit.as_ref().and_then(|i| i.quantity_of(Quantity::Deviation));
             (value.zip(limit), s.text("source").unwrap_or_default().to_owned())
         })?
     } else {
-        (item.quantity(Dimension::Length).map(|v| (v, *item)), String::new())
+        (item.quantity_of(Quantity::Deviation).map(|v| (v, *item)), String::new())
     };
     let (limit_mm, place) = limit?;
     if limit_mm <= 0.0 {

@@ -162,7 +162,7 @@ fn read_circle(s: &Section<'_>) -> (Circle, Option<String>) {
 }
 
 fn read_instrument(section: &Section<'_>) -> Instrument {
-    let extent = |key: &str| section.get(key).and_then(|item| extent(&item));
+    let extent = |key: &str| section.get(key).and_then(|item| extent(&item, UNCERTAINTY));
     let expansion = section.get("expansion");
     let expansion_per_k = expansion.and_then(|item| item.measured(Dimension::Expansion));
     if let (Some(item), Some(MeasuredValue { u: None, .. })) = (expansion, expansion_per_k) {
@@ -180,8 +180,13 @@ fn read_instrument(section: &Section<'_>) -> Instrument {
     }
 }
 
+/// What a length and an angle are that state how well something is known.
+const UNCERTAINTY: [Quantity; 2] = [Quantity::Noise, Quantity::AngularNoise];
+/// The same of a limit.
+const LIMIT: [Quantity; 2] = [Quantity::Deviation, Quantity::AngularDeviation];
+
 /// A length (`0.5 um`), an angle (`0.2 arcsec`) or a ratio (`0.5 um/m`, which is an angle too).
-fn extent(item: &Item<'_>) -> Option<Extent> {
+fn extent(item: &Item<'_>, [of_length, of_angle]: [Quantity; 2]) -> Option<Extent> {
     use trueaxis_input::parse_quantity;
     let text = item.text()?;
     let length = parse_quantity(text, Dimension::Length).map(Extent::Length);
@@ -192,7 +197,15 @@ fn extent(item: &Item<'_>) -> Option<Extent> {
             item.error("negative-uncertainty", message, "it is zero or positive");
             None
         }
-        Ok(extent) => Some(extent),
+        // Nothing at all is no slip of the unit.
+        Ok(extent @ (Extent::Length(0.0) | Extent::Angle(0.0))) => Some(extent),
+        Ok(extent) => {
+            let (quantity, value) = match extent {
+                Extent::Length(v) => (of_length, v),
+                Extent::Angle(v) => (of_angle, v),
+            };
+            item.is_possible(quantity, value).then_some(extent)
+        }
         Err(e) => {
             item.error(e.code(), e.to_string(), "such as \"0.5 um\", \"0.5 um/m\", \"0.2 arcsec\"");
             None

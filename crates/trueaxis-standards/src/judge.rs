@@ -16,8 +16,9 @@ use crate::iso230_2::{Positioning, Quantity};
 use crate::iso230_4::{Cause, Circular};
 use std::path::Path;
 use trueaxis_geometry::AxisKind;
+use trueaxis_input::plausible::{self, Limits, Seen};
 use trueaxis_input::{
-    Diagnostics, Dimension, Files, Item, Place, Section, SourceText, parse_quantity,
+    Diagnostics, Dimension, Files, Item, Place, Section, Severity, SourceText, parse_quantity,
 };
 
 /// A figure of an evaluation with its uncertainty.
@@ -250,7 +251,7 @@ pub fn tolerances(
             problems.error("bad-tolerance", place.clone(), message, "--tolerance \"A=10 um\"");
             continue;
         };
-        let read = limit(value.trim(), &place, problems);
+        let read = limit(value.trim(), Limits::default(), &place, problems);
         let Some((dimension, limit)) = read else { continue };
         let name = name.trim().to_owned();
         if all.iter().any(|t| t.name == name) {
@@ -301,19 +302,36 @@ fn read_file(root: &Section<'_>, axis: Option<&str>) -> Vec<Tolerance> {
 
 fn of_item(name: &str, place: Place, item: &Item<'_>) -> Option<Tolerance> {
     let mut problems = Diagnostics::new();
-    let read = limit(item.text()?, &item.place(), &mut problems);
+    let read = limit(item.text()?, item.limits(), &item.place(), &mut problems);
     for problem in problems.iter() {
-        item.error(problem.code, problem.message.clone(), &problem.hint);
+        match problem.severity {
+            Severity::Error => item.error(problem.code, problem.message.clone(), &problem.hint),
+            _ => item.warn(problem.code, problem.message.clone(), &problem.hint),
+        }
     }
     let (dimension, limit) = read?;
     Some(Tolerance { name: name.to_owned(), dimension, limit, place })
 }
 
-fn limit(text: &str, place: &Place, problems: &mut Diagnostics) -> Option<(Dimension, f64)> {
+/// A limit of metres lets every figure pass: it is judged as a reading of that figure would be.
+fn limit(
+    text: &str,
+    limits: Limits,
+    place: &Place,
+    problems: &mut Diagnostics,
+) -> Option<(Dimension, f64)> {
     let dimensions = [Dimension::Length, Dimension::Angle, Dimension::Temperature];
     let read = dimensions.into_iter().find_map(|d| Some((d, parse_quantity(text, d).ok()?)));
     match read {
-        Some((dimension, limit)) if limit > 0.0 => Some((dimension, limit)),
+        Some((dimension, limit)) if limit > 0.0 => {
+            let quantity = match dimension {
+                Dimension::Length => plausible::Quantity::Deviation,
+                Dimension::Angle => plausible::Quantity::AngularDeviation,
+                _ => return Some((dimension, limit)),
+            };
+            let seen = Seen::one(text, limit);
+            limits.judge(quantity, &seen, place, problems).then_some((dimension, limit))
+        }
         _ => {
             let message = format!("`{text}` is not a limit above zero with its unit");
             problems.error(

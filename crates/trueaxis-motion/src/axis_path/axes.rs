@@ -2,7 +2,7 @@
 //! coordinates, and onto a swivelled plane.
 
 use super::elements::sampled;
-use super::fault::{fault, unreachable};
+use super::fault::{fault, no_farther_than_a_hall, unreachable};
 use super::{AxisPath, Fault, PathStep, Speed, fraction, path_length};
 use crate::basic::choose;
 use crate::curve::Curve;
@@ -125,6 +125,7 @@ impl AxisPath<'_> {
         let length_mm = (self.linear_axes(&end) - self.linear_axes(&begin)).norm();
         let turned = self.rotary_way(&begin, &end);
         let length = path_length(length_mm, turned);
+        no_farther_than_a_hall(m, length_mm)?;
         let pieces = self.bounded(m, self.densify.count(length_mm, turned))?;
         let speed = feed.along(length);
         self.announce(length, || Some(Element::straight(&begin, &end, length)), out);

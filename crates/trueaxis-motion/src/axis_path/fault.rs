@@ -3,6 +3,7 @@
 use super::Node;
 use crate::densify::MOST_PIECES;
 use crate::timing::TimingError;
+use trueaxis_input::plausible::Quantity;
 use trueaxis_machine::SolveError;
 use trueaxis_nc::moves::{Move, Origin};
 
@@ -60,6 +61,22 @@ pub(super) fn fault(
 pub(super) fn unreachable(m: &Move, error: &SolveError) -> Fault {
     let hint = "tilt the part or the tool, or use a machine whose rotary axes reach it";
     fault(m, None, "unreachable-orientation", error.to_string(), hint)
+}
+
+/// A move goes from one end of what is possible to the other at most: pieces of a way that no machine has are of no
+/// use, and every one takes its time.
+pub(super) fn no_farther_than_a_hall(m: &Move, span_mm: f64) -> Result<(), Fault> {
+    let range = Quantity::Length.range();
+    let farthest_mm = range.possible.1 - range.possible.0;
+    if span_mm <= farthest_mm {
+        return Ok(());
+    }
+    let message = format!(
+        "the move spans {span_mm:.0} mm, and {farthest_mm} mm are the most that is possible: {}",
+        range.reason
+    );
+    let hint = "check unit, decimal point, offsets and scale of the block";
+    Err(fault(m, None, "impossible-value", message, hint))
 }
 
 /// No move needs so many pieces.

@@ -1,6 +1,6 @@
 //! What is asked of a geometric test, and what is known of its instrument: `[test]` of the conditions.
 
-use super::{Extent, extent, lengths, positive};
+use super::{Extent, LIMIT, UNCERTAINTY, extent, lengths, positive};
 use trueaxis_input::{Dimension, Item, Section};
 
 /// What is measured.
@@ -101,11 +101,11 @@ pub(super) fn read(section: &Section<'_>) -> Option<Geometry> {
     let points = [corner("point_1"), corner("point_2"), corner("point_3")];
     Some(Geometry {
         error: section.text("error").map(str::to_owned),
-        tolerance: section.get("tolerance").and_then(|item| extent(&item)),
+        tolerance: section.get("tolerance").and_then(|item| extent(&item, LIMIT)),
         reference: reference.unwrap_or(Some(Reference::MinimumZone))?,
         base_mm: section.get("base").and_then(|item| positive(&item, Dimension::Length)),
-        reading_u: section.get("reading_u").and_then(|item| extent(&item)),
-        artefact_u: section.get("artefact_u").and_then(|item| extent(&item)),
+        reading_u: section.get("reading_u").and_then(|item| extent(&item, UNCERTAINTY)),
+        artefact_u: section.get("artefact_u").and_then(|item| extent(&item, UNCERTAINTY)),
         carries_workpiece: carries.unwrap_or_default(),
         gravity: angles.unwrap_or_default(),
         points_mm: match points {

@@ -1,6 +1,7 @@
 //! What is known of the ring, the sphere and the stylus of a probing test: `[probing]` of the conditions.
 
-use super::{lengths, positive};
+use super::{LIMIT, UNCERTAINTY, lengths, positive};
+use trueaxis_input::plausible::Quantity;
 use trueaxis_input::{Dimension, Item, MeasuredValue, Section};
 
 /// A probing test.
@@ -34,6 +35,10 @@ pub struct ProbingTest {
 
 pub(super) fn read(section: &Section<'_>) -> ProbingTest {
     let length = |key: &str| section.get(key).and_then(|item| positive(&item, Dimension::Length));
+    let within = |key: &str, [quantity, _]: [Quantity; 2]| {
+        let item = section.get(key)?;
+        positive(&item, Dimension::Length).filter(|v| item.is_possible(quantity, *v))
+    };
     let diameter = |key: &str| section.get(key).and_then(|item| item.measured(Dimension::Length));
     let points = |item: Item<'_>| match item.text()? {
         "ball" => Some(false),
@@ -51,11 +56,11 @@ pub(super) fn read(section: &Section<'_>) -> ProbingTest {
         is_corrected: section.get("points").and_then(points).unwrap_or_default(),
         ring_centre_mm: section.get("ring_centre").and_then(|item| lengths::<2>(&item)),
         sphere_centre_mm: section.get("sphere_centre").and_then(|item| lengths::<3>(&item)),
-        form_u_mm: length("form_u"),
-        reading_u_mm: length("reading_u"),
-        allowed_point_mm: length("tolerance_point"),
-        allowed_tool_mm: length("tolerance_tool"),
-        allowed_2d_mm: length("tolerance_2d"),
-        allowed_3d_mm: length("tolerance_3d"),
+        form_u_mm: within("form_u", UNCERTAINTY),
+        reading_u_mm: within("reading_u", UNCERTAINTY),
+        allowed_point_mm: within("tolerance_point", LIMIT),
+        allowed_tool_mm: within("tolerance_tool", LIMIT),
+        allowed_2d_mm: within("tolerance_2d", LIMIT),
+        allowed_3d_mm: within("tolerance_3d", LIMIT),
     }
 }

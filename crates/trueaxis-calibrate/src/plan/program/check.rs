@@ -49,16 +49,17 @@ const SAME_PLACE: f64 = 1e-3;
 const REST: f64 = 1e-7;
 
 /// Watches how near the machine comes to its stations, and where it waits.
-struct Visits<'p> {
-    /// Stations in order; nearest so far.
-    nearest: Vec<(&'p Command, f64)>,
+#[derive(Default)]
+struct Visits {
+    /// Where the blocks end.
+    ends: Vec<Command>,
     /// Where the axes were last, and from which side each has come.
     last: Option<(Command, Approach)>,
     /// Where the machine waited, and from which sides it had come.
     waits: Vec<(Command, Approach)>,
 }
 
-impl Observer for Visits<'_> {
+impl Observer for Visits {
     fn path(&mut self, batch: &Batch<'_>) {
         for node in batch.nodes {
             let (before, mut came) = self.last.unwrap_or((node.command, Approach::default()));
@@ -72,16 +73,38 @@ impl Observer for Visits<'_> {
                 self.waits.push((node.command, came));
             }
         }
-        for node in batch.nodes.iter().filter(|n| n.last) {
-            for (station, nearest) in &mut self.nearest {
-                let off = station.iter().zip(&node.command).map(|(a, b)| (a - b).abs());
-                *nearest = nearest.min(off.fold(0.0, f64::max));
-            }
-        }
+        self.ends.extend(batch.nodes.iter().filter(|n| n.last).map(|n| n.command));
     }
 }
 
-impl Visits<'_> {
+impl Visits {
+    /// How far the farthest station is from the nearest end of a block, by its worst axis; 0 without stations.
+    fn off_stations(&self, stations: &[Command]) -> f64 {
+        // Along the axis that is busiest, the search from a station ends soon.
+        let way = |k: usize| {
+            let at = || stations.iter().map(|s| s[k]);
+            at().fold(f64::NEG_INFINITY, f64::max) - at().fold(f64::INFINITY, f64::min)
+        };
+        let axes = 0..Command::default().len();
+        let along = axes.max_by(|a, b| way(*a).total_cmp(&way(*b))).unwrap_or(0);
+        let mut ends = self.ends.clone();
+        ends.sort_by(|a, b| a[along].total_cmp(&b[along]));
+        ends.dedup();
+        let off = |station: &Command| {
+            let from = ends.partition_point(|end| end[along] < station[along]);
+            let (below, above) = ends.split_at(from);
+            let apart =
+                |a: &Command| a.iter().zip(station).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            let nearest = |nearest: f64, end: &Command| {
+                let farther = (end[along] - station[along]).abs() >= nearest;
+                if farther { Err(nearest) } else { Ok(nearest.min(apart(end))) }
+            };
+            let up = above.iter().try_fold(f64::INFINITY, nearest).unwrap_or_else(|n| n);
+            below.iter().rev().try_fold(up, nearest).unwrap_or_else(|n| n)
+        };
+        stations.iter().map(off).fold(0.0, f64::max)
+    }
+
     /// How the stands differ from those that are planned, in their order: an error, and what is only less
     /// good.
     fn compare(&self, machine: &Machine, path: &Path) -> (Option<String>, Vec<String>) {
@@ -183,20 +206,16 @@ pub(in crate::plan) fn run(
 }
 
 /// The same with where the machine stood.
-fn watch<'s>(
+fn watch(
     machine: &Machine,
     machine_path: &std::path::Path,
     setup: &SetUp,
     program: &Program,
-    stations: &'s [Command],
-) -> (ProgramCheck, Visits<'s>) {
+    stations: &[Command],
+) -> (ProgramCheck, Visits) {
     let mut summary = Summary::of(machine);
     let mut watch = AxisWatch::on(machine);
-    let mut visits = Visits {
-        nearest: stations.iter().map(|c| (c, f64::INFINITY)).collect(),
-        last: None,
-        waits: Vec::new(),
-    };
+    let mut visits = Visits::default();
     let mut found = Diagnostics::new();
     let models = load_models(&setup.files, machine, machine_path, &mut found);
     let mut collisions = Collisions::watch(machine, models, setup);
@@ -223,7 +242,7 @@ fn watch<'s>(
     let errors = run.problems.iter().chain(found.iter()).filter(|d| d.severity == Severity::Error);
     let check = ProgramCheck {
         duration_s: summary.time_s,
-        off_station: visits.nearest.iter().map(|(_, off)| *off).fold(0.0, f64::max),
+        off_station: visits.off_stations(stations),
         critical: told(true),
         minor: told(false),
         errors: errors.map(|d| d.message.clone()).collect(),
@@ -291,4 +310,36 @@ fn cylinder(
     let turn = Mat3::from_columns(&[x, along.cross(&x), along]);
     let placement: Link = Pose::new(turn, from_mm);
     Some(BodyModel { name: name.to_owned(), node: Some(0), placement, role: Role::Fixture, mesh })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Poses on a lattice, so that many share coordinates, with a share that is not on it.
+    fn poses(count: u64, seed: u64) -> Vec<Command> {
+        let number = |i: u64, k: u64| {
+            let mixed = (i * 7 + k + seed).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            let spread = (mixed >> 40) % 9;
+            spread as f64 + if mixed.is_multiple_of(5) { 1e-4 } else { 0.0 }
+        };
+        (0..count).map(|i| std::array::from_fn(|k| number(i, k as u64))).collect()
+    }
+
+    #[test]
+    fn the_nearest_end_is_that_of_a_search_through_all() {
+        for (ends, stations) in [(300, 40), (7, 90), (1, 1), (5, 0)] {
+            let visits = Visits { ends: poses(ends, 3), ..Visits::default() };
+            let stations = poses(stations, 11);
+            let apart = |a: &Command, b: &Command| {
+                a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+            };
+            let off = |s: &Command| {
+                visits.ends.iter().map(|end| apart(s, end)).fold(f64::INFINITY, f64::min)
+            };
+            let through_all = stations.iter().map(off).fold(0.0, f64::max);
+            assert_eq!(visits.off_stations(&stations), through_all);
+        }
+        assert_eq!(Visits::default().off_stations(&poses(1, 2)), f64::INFINITY);
+    }
 }
