@@ -101,6 +101,15 @@ pub fn run_session(
     Ok((Ended { plan, last, is_clean }, problems))
 }
 
+/// The mock of a plan, on this computer.
+fn own_mock(plan: &Plan, tell: &dyn Fn(&str)) -> Result<Option<MockServer>, String> {
+    let Some(mock) = mock_of(plan) else { return Ok(None) };
+    let server = MockServer::start(mock, OWN_ADDRESS)
+        .map_err(|error| format!("the mock cannot start: {error}"))?;
+    tell(&format!("mock of a FANUC control at {}", server.address()));
+    Ok(Some(server))
+}
+
 fn refused(
     plan: &Plan,
     code: &'static str,
