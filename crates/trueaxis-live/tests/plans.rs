@@ -40,18 +40,20 @@ fn without_limits_there_is_no_start() {
     }
     refused("dead_band = \"1 um\"", "dead_band = \"0.4 um\"", "live-limit");
     refused("step = \"10 um\"", "step = \"0.4 um\"", "live-limit");
-    refused("limit = \"600 um\"", "limit = \"9e9 m\"", "live-limit");
+    refused("limit = \"600 um\"", "limit = \"9e9 m\"", "too-large");
+    refused("increment = \"1 um\"", "increment = \"1e-7 nm\"", "live-limit");
     refused("limit = \"600 um\"", "limit = \"-600 um\"", "not-positive");
-    refused("limit = \"600 um\"", "limit = \"600 deg\"", "wrong-dimension");
-    refused("limit = \"600 um\"", "limit = 600", "wrong-type");
-    refused("slew = \"100 um/s\"", "slew = \"100 um\"", "wrong-dimension");
+    refused("limit = \"600 um\"", "limit = \"600 deg\"", "wrong-unit");
+    refused("limit = \"600 um\"", "limit = 600", "missing-unit");
+    refused("slew = \"100 um/s\"", "slew = \"100 um\"", "wrong-unit");
     refused("[axis.X]", "[axis.Q]", "unknown-axis");
 }
 
 #[test]
 fn sensors_fit_the_machine_file() {
-    refused("[sensor.scale_x]", "[sensor.spindle]", "live-unused-sensor");
-    refused("[sensor.scale_x]", "[sensor.spindle]", "live-missing-sensor");
+    let column = ("speed = 10 }", "speed = 10, column = \"scale_x\" }");
+    let spindle = codes(&[("[sensor.scale_x]", "[sensor.spindle]"), column]);
+    assert_eq!(spindle, ["live-unused-sensor", "live-missing-sensor"]);
     refused("[sensor.scale_x]", "[sensor.second]\ninput = \"scale_y\"", "live-twice");
     refused(
         "range = [\"10 degC\", \"45 degC\"]",
