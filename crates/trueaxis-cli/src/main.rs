@@ -11,6 +11,7 @@ mod door;
 mod evaluate;
 mod explain;
 mod identify;
+mod live;
 mod measure;
 mod output;
 mod plan;
@@ -49,6 +50,7 @@ Examples:
   trueaxis identify examples/05_identify/probe-ball.toml
   trueaxis post machines/i5-engraver/machine.toml examples/06_compensate/bangle.cls --control fanuc -o bangle.nc --verify
   trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
+  trueaxis live examples/08_live/gantry-mock.toml --for 60s
   trueaxis explain table-too-short
   trueaxis schema pose
   trueaxis serve --open
@@ -89,6 +91,8 @@ enum Verb {
     Compensate(compensate::Arguments),
     /// Compensate: cutter locations to the NC program of one control, verified by simulation
     Post(post::Arguments),
+    /// Compensate, running: the correction in the control while it cuts
+    Live(live::Arguments),
     /// Verify: readings of instruments by ISO 230: positioning, circles, diagonals, drift, spindles
     Evaluate(evaluate::Arguments),
     /// Verify: readings against the prediction of a machine file, or against other readings
@@ -105,6 +109,9 @@ enum Verb {
 fn main() -> ExitCode {
     // Ctrl-C and kill leave nothing half-written; without the handler they only leave a hidden file.
     let _ = ctrlc::set_handler(|| {
+        if live::ends_by_its_ramp() {
+            return;
+        }
         trueaxis::files::remove_parts();
         std::process::exit(130);
     });
@@ -130,6 +137,7 @@ fn main() -> ExitCode {
         Verb::Predict(arguments) => predict::run(&arguments),
         Verb::Compensate(arguments) => compensate::run(arguments),
         Verb::Post(arguments) => post::run(arguments),
+        Verb::Live(arguments) => live::run(&arguments),
         Verb::Evaluate(arguments) => evaluate::run(&arguments),
         Verb::Verify(arguments) => verify::run(&arguments),
         Verb::Explain(arguments) => explain::run(&arguments),

@@ -3,7 +3,7 @@
 use crate::output::{Answer, Format, Outcome, show, tell};
 use clap::Args;
 use serde_json::Value;
-use trueaxis::schemas;
+use trueaxis::Schema;
 
 /// Which document to describe.
 #[derive(Args)]
@@ -23,6 +23,14 @@ pub struct Arguments {
     /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
+}
+
+/// Those of the library and of live runs, by name.
+fn schemas() -> Vec<(&'static str, Schema)> {
+    let mut all = trueaxis::schemas();
+    all.extend(trueaxis_live::schemas());
+    all.sort_by_key(|(name, _)| *name);
+    all
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {

@@ -98,6 +98,11 @@ const ANSWERS: &[(&str, &str)] = &[
         "identify-tools",
         "identify tools machines/i5-engraver/machine.toml examples/04_plan/tool-setting.setup.toml examples/05_identify/tool-setting.log",
     ),
+    (
+        "live-expect",
+        "live expect examples/08_live/gantry-mock.toml --temperature-log examples/03_predict/torque-arm-hall.csv",
+    ),
+    ("live-status", "live status examples/08_live/gantry-mock.toml"),
     ("measure", "measure examples/07_verify/probe-ball-campaign.toml -o OUT/readings"),
     ("measure-part", "measure --part examples/03_predict/nas979-on-xkas2525.toml --draw"),
     ("plan", "plan examples/04_plan/probe-ball.toml"),

@@ -69,6 +69,7 @@ const UNITS: &[(Dimension, &[&str], (f64, f64))] = &[
     (Dimension::Velocity, &["mm/min"], (1.0, 60.0)),
     (Dimension::Velocity, &["m/min"], (1e3, 60.0)),
     (Dimension::Velocity, &["m/s"], (1e3, 1.0)),
+    (Dimension::Velocity, &["um/s", "µm/s", "μm/s"], (1.0, 1e3)),
     (Dimension::Velocity, &["mm/h"], (1.0, 3600.0)),
     (Dimension::Velocity, &["um/h", "µm/h", "μm/h"], (1.0, 3.6e6)),
     (Dimension::Acceleration, &["mm/s^2", "mm/s²"], (1.0, 1.0)),

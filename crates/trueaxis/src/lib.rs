@@ -37,7 +37,7 @@ pub mod report;
 mod schemas;
 pub mod verify;
 
-pub use schemas::schemas;
+pub use schemas::{add_diagnostics, schemas};
 
 pub use trueaxis_calibrate::plan;
 pub use trueaxis_cl as cl;

@@ -61,7 +61,7 @@ pub fn schemas() -> Vec<NamedSchema> {
 }
 
 /// The problems of the input, which the commands add to the documents of their answers.
-fn add_diagnostics(schema: &mut Schema) {
+pub fn add_diagnostics(schema: &mut Schema) {
     let settings = SchemaSettings::draft2020_12().for_serialize();
     let entry = DiagnosticEntry::json_schema(&mut settings.into_generator());
     let diagnostics = json_schema!({

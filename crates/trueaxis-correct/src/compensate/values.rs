@@ -149,12 +149,7 @@ fn node(machine: &Machine, order: &Order, position: f64) -> Result<Node, ValuesE
     let mut command = order.command;
     command[order.axis] = position;
     let sense = Sense::of(machine, order.axis, &command);
-    let from = |side: f64| {
-        let mut approach = Approach::default();
-        approach[order.axis] = side;
-        let errors = machine.errors_at(&command, &approach)?;
-        Ok::<_, CommandFault>(split(machine, order.axis, &command, &errors, &sense))
-    };
+    let from = |side: f64| split_from(machine, order.axis, &command, (side, &sense));
     let (mean, up, down) = (from(0.0)?, from(1.0)?, from(-1.0)?);
     let unbounded = ValuesError::Unbounded { at: position };
     let of = |split: &[f64; 4]| value(error_of(order.of, split), order.increment);
@@ -188,8 +183,32 @@ fn node(machine: &Machine, order: &Order, position: f64) -> Result<Node, ValuesE
     })
 }
 
-/// The error that a compensation takes away.
-fn error_of(
+/// Geometric, scale, structure and E_w of one axis in its own direction, as [`Node::split`] has them.
+///
+/// # Errors
+/// A position outside an error table.
+pub fn error_split(
+    machine: &Machine,
+    axis: usize,
+    command: &Command,
+) -> Result<[f64; 4], CommandFault> {
+    split_from(machine, axis, command, (0.0, &Sense::of(machine, axis, command)))
+}
+
+fn split_from(
+    machine: &Machine,
+    axis: usize,
+    command: &Command,
+    (side, sense): (f64, &Sense),
+) -> Result<[f64; 4], CommandFault> {
+    let mut approach = Approach::default();
+    approach[axis] = side;
+    let errors = machine.errors_at(command, &approach)?;
+    Ok(split(machine, axis, command, &errors, sense))
+}
+
+/// The error that a compensation takes away. Unit: that of the split.
+pub fn error_of(
     compensation: Compensation,
     [geometric, scale, structure, workpiece]: &[f64; 4],
 ) -> f64 {

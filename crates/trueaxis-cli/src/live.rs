@@ -1,0 +1,280 @@
+//! `trueaxis live`: the correction in the control while it cuts.
+
+use crate::door::DoorArguments;
+use crate::output::{Answer, Format, Outcome, report_and, show, tell};
+use clap::{Args, Subcommand, ValueEnum};
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use trueaxis::files::disk;
+use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
+use trueaxis::report::refused_json;
+use trueaxis_live::expect::ExpectLive;
+use trueaxis_live::file::read_plan;
+use trueaxis_live::mock::MockServer;
+use trueaxis_live::session::{Session, replay, run_session};
+use trueaxis_live::start::mock_of;
+use trueaxis_live::status::{LiveStatus, shown_state, status_json};
+
+/// A run is going on: the first interrupt ends it by its ramp.
+static RUNNING: AtomicBool = AtomicBool::new(false);
+static STOPPED: AtomicBool = AtomicBool::new(false);
+
+/// Whether an interrupt ends a run by its ramp; the second one ends the program.
+pub fn ends_by_its_ramp() -> bool {
+    RUNNING.load(Ordering::Relaxed) && !STOPPED.swap(true, Ordering::Relaxed)
+}
+
+/// The run.
+#[derive(Args)]
+#[command(
+    args_conflicts_with_subcommands = true,
+    after_help = "\
+Examples:
+  trueaxis live examples/08_live/gantry-mock.toml --for 60s
+  trueaxis live status examples/08_live/gantry-mock.toml --format json
+  trueaxis live expect examples/08_live/gantry-mock.toml --temperature-log examples/03_predict/torque-arm-hall.csv
+  trueaxis live mock fanuc examples/08_live/gantry-mock.toml --port 8193
+
+An interrupt (Ctrl-C) takes the offset back by its slew, then the run ends; a second one ends it at once and
+leaves the offset in the control. This is no safety function: the limits of the control stay the last barrier.
+Exit status: 0 ended, and nothing of it is in the control; 1 its offset is still there; 2 unusable input."
+)]
+pub struct Arguments {
+    #[command(subcommand)]
+    command: Option<LiveCommand>,
+    #[command(flatten)]
+    run: RunArguments,
+}
+
+#[derive(Args)]
+struct RunArguments {
+    /// The plan: machine, control, sensors, limits
+    #[arg(value_name = "LIVE.toml", required = true)]
+    plan: Option<PathBuf>,
+    /// End after so much, such as 60s or 8h; without it the run ends by an interrupt
+    #[arg(long = "for", value_name = "TIME")]
+    duration: Option<String>,
+    /// Compute everything and write nothing, no heartbeat either
+    #[arg(long)]
+    dry_run: bool,
+    /// A person has seen what was latched, and confirms it
+    #[arg(long)]
+    confirm: bool,
+    /// Record every cycle into this file; trueaxis live replay computes it again
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
+    /// Output as text or as one JSON document
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+#[derive(Subcommand)]
+enum LiveCommand {
+    /// What a run is doing, or what the last one has left
+    Status(StatusArguments),
+    /// What the correction would leave of the tool on a recorded day
+    Expect(ExpectArguments),
+    /// Compute the orders of a record again and compare them to the last bit
+    Replay(ReplayArguments),
+    /// A control that is not there, for demonstrations and tests
+    Mock(MockArguments),
+}
+
+/// The plan of the run.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  trueaxis live status examples/08_live/gantry-mock.toml
+  trueaxis live status examples/08_live/gantry-mock.toml --format json
+
+Exit status: 0 shown, 2 unusable input.")]
+struct StatusArguments {
+    /// The plan
+    #[arg(value_name = "LIVE.toml")]
+    plan: PathBuf,
+    #[command(flatten)]
+    door: DoorArguments,
+}
+
+/// The plan and the day.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  trueaxis live expect examples/08_live/gantry-mock.toml --temperature-log examples/03_predict/torque-arm-hall.csv
+
+Every row of the log is one sample of the sensors. Exit status: 0 done, 2 unusable input.")]
+struct ExpectArguments {
+    /// The plan
+    #[arg(value_name = "LIVE.toml")]
+    plan: PathBuf,
+    /// The temperatures of the day: a table with time_s and one column for each sensor (scale_x_degC)
+    #[arg(long, value_name = "LOG.csv")]
+    temperature_log: PathBuf,
+    #[command(flatten)]
+    door: DoorArguments,
+}
+
+/// The record of a run.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  trueaxis live examples/08_live/gantry-mock.toml --for 10s --record day.jsonl
+  trueaxis live replay examples/08_live/gantry-mock.toml day.jsonl
+
+Exit status: 0 the same orders, 1 an order differs, 2 unusable input.")]
+struct ReplayArguments {
+    /// The plan of the run
+    #[arg(value_name = "LIVE.toml")]
+    plan: PathBuf,
+    /// The record
+    #[arg(value_name = "RECORD.jsonl")]
+    record: PathBuf,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum MockKind {
+    /// FANUC by FOCAS2 over Ethernet
+    Fanuc,
+}
+
+/// The mock.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  trueaxis live mock fanuc examples/08_live/gantry-mock.toml --port 8193
+
+Its axes move along the stops of [mock], its ladder watches the heartbeat. It serves this computer only, until
+it is interrupted or --for is over. Exit status: 0 ended, 2 unusable input.")]
+struct MockArguments {
+    /// The kind of control
+    #[arg(value_enum)]
+    kind: MockKind,
+    /// A plan with address = \"mock\"
+    #[arg(value_name = "LIVE.toml")]
+    plan: PathBuf,
+    /// The port; 0 takes any that is free
+    #[arg(long, default_value = "8193")]
+    port: u16,
+    /// End after so much, such as 60s
+    #[arg(long = "for", value_name = "TIME")]
+    duration: Option<String>,
+}
+
+pub fn run(arguments: &Arguments) -> Outcome {
+    match &arguments.command {
+        None => run_live(&arguments.run),
+        Some(LiveCommand::Status(a)) => a.door.door().ask(&LiveStatus { plan: a.plan.clone() }),
+        Some(LiveCommand::Expect(a)) => {
+            let (plan, log) = (a.plan.clone(), a.temperature_log.clone());
+            a.door.door().ask(&ExpectLive { plan, log })
+        }
+        Some(LiveCommand::Replay(arguments)) => run_replay(arguments),
+        Some(LiveCommand::Mock(arguments)) => run_mock(arguments),
+    }
+}
+
+/// A time such as `60s`.
+fn duration(text: Option<&String>) -> Result<Option<f64>, Diagnostics> {
+    let Some(text) = text else { return Ok(None) };
+    let found = parse_quantity(text, Dimension::Time).ok().filter(|s| *s > 0.0);
+    found.map(Some).ok_or_else(|| {
+        let mut problems = Diagnostics::new();
+        let message = format!("`{text}` is no time");
+        problems.error("bad-duration", Place::whole("--for"), message, "such as 60s, 10min or 8h");
+        problems
+    })
+}
+
+fn refuse(problems: Diagnostics, format: Format) -> Outcome {
+    report_and(problems.clone(), "nothing was written to the control");
+    if format == Format::Json {
+        show(&Answer::Json(refused_json(&problems)));
+    }
+    Outcome::Unusable
+}
+
+fn run_live(arguments: &RunArguments) -> Outcome {
+    let for_s = match duration(arguments.duration.as_ref()) {
+        Ok(for_s) => for_s,
+        Err(problems) => return refuse(problems, arguments.format),
+    };
+    let session = Session {
+        plan: arguments.plan.clone().unwrap_or_default(),
+        for_s,
+        dry: arguments.dry_run,
+        confirmed: arguments.confirm,
+        record: arguments.record.clone(),
+    };
+    RUNNING.store(true, Ordering::Relaxed);
+    let stopped = || STOPPED.load(Ordering::Relaxed);
+    let (ended, problems) = match run_session(&session, &disk(), &stopped, &|line| tell(line)) {
+        Ok(ended) => ended,
+        Err(problems) => return refuse(problems, arguments.format),
+    };
+    report_and(problems, "");
+    let shown = show(&match arguments.format {
+        Format::Json => Answer::Json(status_json(&ended.plan, false, Some(ended.last.clone()))),
+        Format::Text => Answer::Text(shown_state(&ended.plan, &ended.last)),
+    });
+    if !ended.is_clean {
+        tell(
+            "the offset of this run is still in the control: start it again, or clear it at the control",
+        );
+        return Outcome::No;
+    }
+    shown
+}
+
+fn run_replay(arguments: &ReplayArguments) -> Outcome {
+    match replay(&disk(), &arguments.plan, &arguments.record) {
+        Err(problems) => refuse(problems, Format::Text),
+        Ok(replayed) => match replayed.differs {
+            None => show(&Answer::Text(format!("{} cycles, the same orders\n", replayed.cycles))),
+            Some(cycle) => {
+                let text = format!(
+                    "{} cycles; cycle {cycle} is the first with another order\n",
+                    replayed.cycles
+                );
+                show(&Answer::Text(text));
+                Outcome::No
+            }
+        },
+    }
+}
+
+fn run_mock(arguments: &MockArguments) -> Outcome {
+    let MockKind::Fanuc = arguments.kind;
+    let (plan, mut problems) = read_plan(&disk(), &arguments.plan);
+    let for_s = match duration(arguments.duration.as_ref()) {
+        Ok(for_s) => for_s,
+        Err(found) => return refuse(found, Format::Text),
+    };
+    let place = Place::whole(&arguments.plan.display().to_string());
+    let Some(plan) = plan else { return refuse(problems, Format::Text) };
+    let Some(mock) = mock_of(&plan) else {
+        let message = "the plan has no mock".to_owned();
+        problems.error(
+            "live-no-mock",
+            place,
+            message,
+            "address = \"mock\" and [mock] with feed and stops",
+        );
+        return refuse(problems, Format::Text);
+    };
+    let server = match MockServer::start(mock, &format!("127.0.0.1:{}", arguments.port)) {
+        Ok(server) => server,
+        Err(error) => {
+            let message = format!("the mock cannot start: {error}");
+            problems.error(
+                "live-no-mock",
+                place,
+                message,
+                "name another --port; 0 takes any that is free",
+            );
+            return refuse(problems, Format::Text);
+        }
+    };
+    tell(&format!("mock of a FANUC control at {}", server.address()));
+    server.wait(for_s);
+    Outcome::Done
+}

@@ -1,0 +1,146 @@
+//! One cycle without its sockets: what was read goes in, what is to be written comes out. A record is a list of what went
+//! in; replayed it gives the same orders, to the last bit.
+
+use crate::control::{LinkFault, Seen};
+use crate::file::Plan;
+use crate::governor::{Governor, Inputs, Order, Owned, Reason};
+use crate::model::{LiveAxis, Model, Target};
+use crate::sensor::{Judged, Sample, Watch};
+use serde::{Deserialize, Serialize};
+use trueaxis::machine::axis::Command;
+
+/// What one cycle reads.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CycleInput {
+    /// The clock of the run.
+    pub now_s: f64,
+    /// What sensors have sent since the last cycle.
+    pub samples: Vec<Sample>,
+    /// What the control reports.
+    pub seen: Result<Seen, LinkFault>,
+    /// How the write of the cycle before ended, if it failed.
+    pub write_fault: Option<LinkFault>,
+    /// Whether the correction is wanted.
+    pub run: bool,
+    /// A person has confirmed what was latched.
+    pub confirmed: bool,
+    /// The journal takes no entry.
+    pub journal_fails: bool,
+}
+
+/// What one cycle comes to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CycleOutput {
+    /// What is done.
+    pub order: Order,
+    /// The sensors.
+    pub sensors: Vec<Judged>,
+    /// Where the offsets shall go, if that is known.
+    pub target: Option<Target>,
+    /// The program's position, where there is a link. Unit: mm or rad.
+    pub programmed: Option<Command>,
+}
+
+/// Sensors, model and governor of a run.
+#[derive(Debug, Clone)]
+pub struct Correction {
+    watch: Watch,
+    model: Model,
+    governor: Governor,
+    last_s: Option<f64>,
+}
+
+impl Correction {
+    /// Of a plan, with what the journal knows.
+    pub fn new(plan: &Plan, owned: Option<Owned>) -> Self {
+        let live = |axis: &crate::file::AxisPlan| LiveAxis {
+            axis: axis.axis,
+            increment: axis.increment,
+            sign: axis.sign,
+        };
+        let axes = plan.axes.iter().map(live).collect();
+        Self {
+            watch: Watch::new(plan.sensors.iter().map(|s| s.settings.clone()).collect()),
+            model: Model::new(plan.machine.clone(), plan.of, plan.part, axes),
+            governor: Governor::new(plan.settings.clone(), owned),
+            last_s: None,
+        }
+    }
+
+    /// What this program owns in the control, for the journal.
+    pub fn owned(&self) -> Owned {
+        self.governor.owned()
+    }
+
+    /// The governor.
+    pub fn governor(&self) -> &Governor {
+        &self.governor
+    }
+
+    /// The sensors.
+    pub fn watch(&self) -> &Watch {
+        &self.watch
+    }
+
+    /// One cycle.
+    pub fn step(&mut self, input: &CycleInput) -> CycleOutput {
+        let now_s = input.now_s;
+        let dt_s = self.last_s.map_or(0.0, |last_s| now_s - last_s);
+        self.last_s = Some(now_s);
+        if let Some(fault) = &input.write_fault {
+            self.governor.write_failed(matches!(fault, LinkFault::Refused { .. }));
+        }
+        input.samples.iter().for_each(|sample| self.watch.take(sample, now_s));
+        let sensors = self.watch.judged(now_s);
+        let programmed = input.seen.as_ref().ok().map(|seen| self.programmed(seen));
+        let target = self.target(&sensors, programmed.as_ref());
+        let lost = |fault: &LinkFault| Reason::LinkLost { what: fault.to_string() };
+        let order = self.governor.step(
+            dt_s,
+            &Inputs {
+                seen: input.seen.as_ref().map_err(lost),
+                target: target.as_ref().map(|t| t.offsets.as_slice()).map_err(Clone::clone),
+                run: input.run,
+                confirmed: input.confirmed,
+                journal_fails: input.journal_fails,
+            },
+        );
+        CycleOutput { order, sensors, target: target.ok(), programmed }
+    }
+
+    /// The position of the program: that of the machine without the offset that acts.
+    fn programmed(&self, seen: &Seen) -> Command {
+        let mut command = Command::default();
+        command.iter_mut().zip(&seen.positions).for_each(|(to, from)| *to = *from);
+        let acting = seen.acting.as_ref().unwrap_or(&seen.offsets);
+        for (axis, offset) in self.model.axes().iter().zip(acting) {
+            command[axis.axis] -= axis.sign * f64::from(*offset) * axis.increment;
+        }
+        command
+    }
+
+    fn target(
+        &mut self,
+        sensors: &[Judged],
+        programmed: Option<&Command>,
+    ) -> Result<Target, Reason> {
+        let settings = self.watch.settings();
+        let mut readings = Vec::with_capacity(sensors.len());
+        for (settings, judged) in settings.iter().zip(sensors) {
+            match &judged.celsius {
+                Ok(celsius) => readings.push((settings.input.as_str(), *celsius)),
+                Err(fault) => {
+                    let (sensor, what) = (settings.name.clone(), fault.to_string());
+                    return Err(match settings.is_workpiece {
+                        true => Reason::Workpiece { sensor, what },
+                        false => Reason::Sensor { sensor, what },
+                    });
+                }
+            }
+        }
+        self.model.set_readings(&readings)?;
+        let programmed =
+            programmed.ok_or_else(|| Reason::Model { what: "no position".to_owned() })?;
+        self.model.target(programmed)
+    }
+}

@@ -1,0 +1,451 @@
+//! What would this lever leave of the tool on a recorded day? Asked before a control is touched.
+//!
+//! ```text
+//!     T(t) of the log ──Machine::at──> errors over the travel at every row
+//!     offset(t, q) = −e of the sample before, in whole increments, follows with a dead band
+//!     left(t, q)   = e(t, q) + offset + v · |de/dq| · age
+//! ```
+
+use crate::file::{Plan, Source, read_plan};
+use crate::model::{LiveAxis, Model, at};
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::Value;
+use std::path::PathBuf;
+use trueaxis::compensate::values::travel_positions;
+use trueaxis::input::{Diagnostics, Files, Place};
+use trueaxis::machine::Machine;
+use trueaxis::machine::axis::{AxisKind, Command};
+use trueaxis::machine::heat::TemperatureLog;
+use trueaxis::questions::{Answer, Question, Tell, complete};
+use trueaxis_report::numbers::fixed;
+use trueaxis_report::{Report, Section, Table, document};
+
+/// Places on the travel of an axis.
+const PLACES: f64 = 20.0;
+/// Rows of the log that are evaluated, at most.
+const MOST_ROWS: usize = 500;
+/// A position that is read is so many periods old when what follows from it acts: one until the next cycle, one under way.
+const PERIODS: f64 = 2.0;
+
+/// A forecast.
+#[derive(Debug, Clone)]
+pub struct ExpectLive {
+    /// The plan.
+    pub plan: PathBuf,
+    /// The log of the day; without one those of the plan.
+    pub log: PathBuf,
+}
+
+/// What a lever would leave.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct LiveExpectDocument {
+    /// Which document this is.
+    #[schemars(extend("const" = "trueaxis/live-expect/1"))]
+    pub schema: &'static str,
+    /// The name of the plan.
+    pub name: String,
+    /// The log.
+    pub log: String,
+    /// Each live axis over the whole day.
+    pub axes: Vec<ExpectedAxis>,
+    /// Each row of the log that was evaluated.
+    pub times: Vec<ExpectedTime>,
+    /// What no offset of an axis changes: the largest deviation of the tool axis over the day; null without rotary axes and
+    /// angular errors.
+    pub tool_axis_urad: Option<f64>,
+    /// The largest deviation of the tip in the directions that no live axis corrects, and by errors that do not change with
+    /// the position of their axis: squareness, straightness, roll.
+    pub other_tip_um: f64,
+}
+
+/// One live axis over the day. Numbers are in `unit`.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct ExpectedAxis {
+    /// Its letter.
+    pub axis: String,
+    /// um or urad.
+    pub unit: &'static str,
+    /// The largest error without the correction. Unit: that of `unit`.
+    pub before: f64,
+    /// The largest error with it, standing still. Unit: that of `unit`.
+    pub after: f64,
+    /// Of it: the temperatures have changed since the last sample. Unit: that of `unit`.
+    pub by_age: f64,
+    /// Of it: whole increments and the dead band. Unit: that of `unit`.
+    pub by_increment: f64,
+    /// More while the axis moves at its largest velocity: velocity × slope × age of the position; null where the machine
+    /// file states no velocity. Unit: that of `unit`.
+    pub moving: Option<f64>,
+    /// How fast the offset must change then, in the unit per second; null as above. Unit: that of `unit`.
+    pub needed_per_s: Option<f64>,
+    /// How fast it may change. Unit: that of `unit`.
+    pub slew_per_s: f64,
+    /// The largest offset that is needed; it is clamped at the limit. Unit: that of `unit`.
+    pub needed: f64,
+    /// The limit of the plan. Unit: that of `unit`.
+    pub limit: f64,
+    /// Expanded uncertainty (k = 2) of the error that is corrected, by the machine file; null where it states none. Unit: that of `unit`.
+    pub expanded_uncertainty: Option<f64>,
+}
+
+/// One row of the log.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct ExpectedTime {
+    /// In the log.
+    pub time_s: f64,
+    /// The largest error of each live axis without the correction, in its unit. Unit: that of `unit`.
+    pub before: Vec<f64>,
+    /// With it. Unit: that of `unit`.
+    pub after: Vec<f64>,
+}
+
+/// The answer.
+#[derive(Debug)]
+pub struct LiveExpectAnswer(LiveExpectDocument);
+
+impl Question for ExpectLive {
+    type Input = (Plan, TemperatureLog);
+    type Answer = LiveExpectAnswer;
+
+    fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
+        let plan = problems.keep(read_plan(files, &self.plan));
+        let text = files.text(&self.log, "a log of temperatures (CSV)", problems)?;
+        let log = TemperatureLog::parse(&self.log.display().to_string(), &text, problems)?;
+        let plan = plan?;
+        for sensor in &plan.sensors {
+            let column = column(sensor);
+            if log.celsius(column).is_none() {
+                let names: Vec<&str> = log.sensors().collect();
+                let message = format!("the log has no column of `{column}`");
+                let place = Place::whole(&self.log.display().to_string());
+                problems.error("live-no-column", place, message, &names.join(", "));
+            }
+        }
+        Some((plan, log))
+    }
+
+    fn answer(
+        &self,
+        (plan, log): Self::Input,
+        _: Tell<'_>,
+        problems: &mut Diagnostics,
+    ) -> Option<LiveExpectAnswer> {
+        match expect(&plan, &log) {
+            Ok(found) => Some(LiveExpectAnswer(found)),
+            Err(message) => {
+                let place = Place::whole(&self.plan.display().to_string());
+                problems.error(
+                    "live-no-forecast",
+                    place,
+                    message,
+                    "check the temperatures of the log and the travels of the machine file",
+                );
+                None
+            }
+        }
+    }
+}
+
+fn column(sensor: &crate::file::SensorPlan) -> &str {
+    match &sensor.source {
+        Source::Log { column, .. } => column,
+        Source::Constant { .. } => &sensor.settings.input,
+    }
+}
+
+/// The errors of one axis over its travel at the temperatures of a row.
+struct Row {
+    warm: Machine,
+    /// Errors at the places, mm or rad, of each live axis.
+    errors: Vec<Vec<f64>>,
+}
+
+/// The forecast of a day.
+///
+/// # Errors
+/// What the machine file says against it.
+pub fn expect(plan: &Plan, log: &TemperatureLog) -> Result<LiveExpectDocument, String> {
+    let model = model_of(plan);
+    let places: Vec<Vec<f64>> =
+        plan.axes.iter().map(|axis| places(&plan.machine, axis.axis)).collect();
+    let step = log.times_s().len().div_ceil(MOST_ROWS).max(1);
+    let mut found = Found::new(plan);
+    let (mut offsets, mut last): (Option<Vec<Vec<f64>>>, Option<Row>) = (None, None);
+    for (i, time_s) in log.times_s().iter().enumerate().step_by(step) {
+        let row = row(plan, &model, (log, i), &places)?;
+        let sampled = last.as_ref().unwrap_or(&row);
+        let held = follow(plan, sampled, offsets.take());
+        found.add(plan, *time_s, (&row, sampled, &held), &places);
+        found.others(plan, &row, &places)?;
+        offsets = Some(held);
+        last = Some(row);
+    }
+    let last = last.ok_or("the log has no row")?;
+    found.uncertainty(plan, &last, &places);
+    Ok(found.document(plan, log))
+}
+
+fn model_of(plan: &Plan) -> Model {
+    let live =
+        |a: &crate::file::AxisPlan| LiveAxis { axis: a.axis, increment: a.increment, sign: a.sign };
+    Model::new(plan.machine.clone(), plan.of, plan.part, plan.axes.iter().map(live).collect())
+}
+
+fn places(machine: &Machine, axis: usize) -> Vec<f64> {
+    use trueaxis::machine::axis::Travel;
+    let own = &machine.axes()[axis];
+    let step = match own.travel {
+        Travel::Between(from, to) => (to - from) / PLACES,
+        Travel::Unlimited | Travel::Unknown => std::f64::consts::TAU / PLACES,
+    };
+    travel_positions(own, step).unwrap_or_else(|| vec![0.0])
+}
+
+fn command_at(plan: &Plan, live: usize, place: f64) -> Command {
+    let mut command = Command::default();
+    command[plan.axes[live].axis] = place;
+    command
+}
+
+fn row(
+    plan: &Plan,
+    model: &Model,
+    (log, i): (&TemperatureLog, usize),
+    places: &[Vec<f64>],
+) -> Result<Row, String> {
+    let reading = |s: &'_ crate::file::SensorPlan| {
+        let celsius = log.celsius(column(s)).and_then(|column| column.get(i));
+        celsius.map(|celsius| (s.settings.input.clone(), *celsius))
+    };
+    let readings: Vec<(String, f64)> = plan.sensors.iter().filter_map(reading).collect();
+    let readings: Vec<(&str, f64)> = readings.iter().map(|(name, c)| (name.as_str(), *c)).collect();
+    let warm = at(&plan.machine, &readings)?;
+    let error = |(live, places): (usize, &Vec<f64>)| {
+        let axis = plan.axes[live].axis;
+        let at = |place: &f64| {
+            model.error(&warm, axis, &command_at(plan, live, *place)).map_err(|r| r.to_string())
+        };
+        places.iter().map(at).collect::<Result<Vec<f64>, String>>()
+    };
+    let errors = places.iter().enumerate().map(error).collect::<Result<_, _>>()?;
+    Ok(Row { warm, errors })
+}
+
+/// The offsets at all places, mm or rad: whole increments that follow with the dead band, within the limit.
+fn follow(plan: &Plan, sampled: &Row, before: Option<Vec<Vec<f64>>>) -> Vec<Vec<f64>> {
+    let axis = |(live, errors): (usize, &Vec<f64>)| {
+        let own = &plan.axes[live];
+        let limit = f64::from(own.limits.limit);
+        let one = |(i, error): (usize, &f64)| {
+            let target = (-error / own.increment).clamp(-limit, limit);
+            let held = before.as_ref().map(|all| all[live][i] / own.increment);
+            let stays = held.filter(|held| (target - held).abs() < own.limits.dead_band.max(1.0));
+            stays.unwrap_or_else(|| target.round()) * own.increment
+        };
+        errors.iter().enumerate().map(one).collect()
+    };
+    sampled.errors.iter().enumerate().map(axis).collect()
+}
+
+/// What was found so far, mm and rad.
+struct Found {
+    axes: Vec<Worst>,
+    times: Vec<ExpectedTime>,
+    other_mm: f64,
+    turned_rad: f64,
+}
+
+#[derive(Default, Clone)]
+struct Worst {
+    before: f64,
+    after: f64,
+    by_age: f64,
+    by_increment: f64,
+    slope: f64,
+    needed: f64,
+    u: Option<f64>,
+}
+
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.map(f64::abs).fold(0.0, f64::max)
+}
+
+fn shown(plan: &Plan, live: usize) -> f64 {
+    match plan.machine.axes()[plan.axes[live].axis].kind {
+        AxisKind::Linear => 1e3,
+        AxisKind::Rotary => 1e6,
+    }
+}
+
+impl Found {
+    fn new(plan: &Plan) -> Self {
+        let axes = vec![Worst::default(); plan.axes.len()];
+        Self { axes, times: Vec::new(), other_mm: 0.0, turned_rad: 0.0 }
+    }
+
+    fn add(
+        &mut self,
+        plan: &Plan,
+        time_s: f64,
+        (row, sampled, held): (&Row, &Row, &Vec<Vec<f64>>),
+        places: &[Vec<f64>],
+    ) {
+        let (mut before, mut after) = (Vec::new(), Vec::new());
+        for (live, worst) in self.axes.iter_mut().enumerate() {
+            let (errors, then, held) = (&row.errors[live], &sampled.errors[live], &held[live]);
+            let left = errors.iter().zip(held).map(|(e, h)| e + h);
+            let (without, with) = (largest(errors.iter().copied()), largest(left));
+            worst.before = worst.before.max(without);
+            worst.after = worst.after.max(with);
+            worst.by_age = worst.by_age.max(largest(errors.iter().zip(then).map(|(e, t)| e - t)));
+            worst.by_increment =
+                worst.by_increment.max(largest(then.iter().zip(held).map(|(t, h)| t + h)));
+            worst.needed = worst.needed.max(largest(then.iter().copied()));
+            let steps = errors.windows(2).zip(places[live].windows(2));
+            worst.slope =
+                worst.slope.max(largest(steps.map(|(e, q)| (e[1] - e[0]) / (q[1] - q[0]))));
+            before.push(without * shown(plan, live));
+            after.push(with * shown(plan, live));
+        }
+        self.times.push(ExpectedTime { time_s, before, after });
+    }
+
+    /// What the live axes do not correct: of the deviation at each place that which is not the error of an axis in its own
+    /// direction, and the tool axis.
+    fn others(&mut self, plan: &Plan, row: &Row, places: &[Vec<f64>]) -> Result<(), String> {
+        for (live, places) in places.iter().enumerate() {
+            for (i, place) in places.iter().enumerate() {
+                let command = command_at(plan, live, *place);
+                let errors = row.warm.errors_at(&command, &[0.0; 6]).map_err(|e| e.to_string())?;
+                let deviation = row.warm.deviation(&command, &errors);
+                let mut tip_mm = deviation.tip_mm;
+                for (other, axis) in plan.axes.iter().enumerate() {
+                    if plan.machine.axes()[axis.axis].kind != AxisKind::Linear {
+                        continue;
+                    }
+                    // The error of another live axis at its zero.
+                    let error =
+                        if other == live { row.errors[live][i] } else { row.errors[other][0] };
+                    let mut step = command;
+                    step[axis.axis] += 1.0;
+                    let none = Default::default();
+                    let along = row.warm.pose(&step, &none).shift_mm()
+                        - row.warm.pose(&command, &none).shift_mm();
+                    tip_mm -= along * error;
+                }
+                self.other_mm = self.other_mm.max(tip_mm.norm());
+                self.turned_rad = self.turned_rad.max(deviation.axis.norm());
+            }
+        }
+        Ok(())
+    }
+
+    fn uncertainty(&mut self, plan: &Plan, last: &Row, places: &[Vec<f64>]) {
+        use trueaxis::compensate::values::{Order, compensation_values};
+        for (live, worst) in self.axes.iter_mut().enumerate() {
+            let axis = &plan.axes[live];
+            let (positions, increment) = (places[live].clone(), axis.increment);
+            let order = Order {
+                axis: axis.axis,
+                command: Command::default(),
+                positions,
+                increment,
+                of: plan.of,
+            };
+            let table = compensation_values(&last.warm, &order).ok();
+            let u = table.iter().flat_map(|t| &t.nodes).filter_map(|n| n.u);
+            worst.u = u.fold(None, |most: Option<f64>, u| Some(most.map_or(u, |m| m.max(u))));
+        }
+    }
+
+    fn document(self, plan: &Plan, log: &TemperatureLog) -> LiveExpectDocument {
+        let axis = |(live, worst): (usize, &Worst)| {
+            let (own, scale) = (&plan.axes[live], shown(plan, live));
+            let machine = &plan.machine.axes()[own.axis];
+            let speed = machine.limits.velocity;
+            ExpectedAxis {
+                axis: own.name.clone(),
+                unit: if machine.kind == AxisKind::Linear { "um" } else { "urad" },
+                before: worst.before * scale,
+                after: worst.after * scale,
+                by_age: worst.by_age * scale,
+                by_increment: worst.by_increment * scale,
+                moving: speed.map(|v| v * worst.slope * PERIODS * plan.period_s * scale),
+                needed_per_s: speed.map(|v| v * worst.slope * scale),
+                slew_per_s: own.limits.slew_per_s * own.increment * scale,
+                needed: worst.needed * scale,
+                limit: f64::from(own.limits.limit) * own.increment * scale,
+                expanded_uncertainty: worst.u.map(|u| 2.0 * u * scale),
+            }
+        };
+        LiveExpectDocument {
+            schema: "trueaxis/live-expect/1",
+            name: plan.name.clone(),
+            log: log.file().to_owned(),
+            axes: self.axes.iter().enumerate().map(axis).collect(),
+            times: self.times,
+            tool_axis_urad: (self.turned_rad > 0.0).then_some(self.turned_rad * 1e6),
+            other_tip_um: self.other_mm * 1e3,
+        }
+    }
+}
+
+impl Answer for LiveExpectAnswer {
+    fn document(&self, problems: &Diagnostics) -> Value {
+        complete(document(&self.0), problems)
+    }
+
+    fn report(&self) -> Report<'_> {
+        let shown = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |v| fixed(v, 1));
+        let axes = self.0.axes.iter().map(|axis| {
+            [
+                format!("{}, {}", axis.axis, if axis.unit == "um" { "µm" } else { "µrad" }),
+                fixed(axis.before, 1),
+                fixed(axis.after, 1),
+                fixed(axis.by_age, 1),
+                fixed(axis.by_increment, 1),
+                shown(axis.moving),
+                shown(axis.expanded_uncertainty),
+            ]
+        });
+        let headings = [
+            "axis",
+            "before",
+            "after",
+            "of it: age of the sample",
+            "of it: increment",
+            "more while it moves",
+            "U (k = 2)",
+        ];
+        let limits = self.0.axes.iter().map(|axis| {
+            let fits = axis.needed <= axis.limit
+                && axis.needed_per_s.is_none_or(|needed| needed <= axis.slew_per_s);
+            [
+                axis.axis.clone(),
+                fixed(axis.needed, 1),
+                fixed(axis.limit, 1),
+                shown(axis.needed_per_s),
+                fixed(axis.slew_per_s, 1),
+                if fits { "" } else { "too small" }.to_owned(),
+            ]
+        });
+        let needs = ["axis", "offset needed", "limit", "per second, at full speed", "slew", ""];
+        let others = format!(
+            "the lever does not correct {} µm of the tip (squareness, straightness, angles)",
+            fixed(self.0.other_tip_um, 1)
+        );
+        let turned = self
+            .0
+            .tool_axis_urad
+            .map(|urad| format!("nor {} µrad of the tool axis", fixed(urad, 1)));
+        let report =
+            Report::new(&self.0.name).line(format!("on the day of {}", self.0.log)).line(others);
+        let report = turned.into_iter().fold(report, |report, line| report.line(line));
+        report
+            .section(
+                Section::new("Largest errors over the day").table(Table::new(headings).rows(axes)),
+            )
+            .section(Section::new("What the plan must allow").table(Table::new(needs).rows(limits)))
+    }
+}

@@ -1,0 +1,42 @@
+//! Compensate, running: the correction of a machine goes into its control while it cuts.
+//!
+//! ```text
+//!     sensors ──Watch──> temperatures ─┐
+//!                                      ├─Model──> target ──Governor──> order ──Control──> offset
+//!     control ──read───> pose, state ──┘                                  └──> journal, record
+//! ```
+//!
+//! - [`focas`], [`mock`]: a FANUC control, and one that is not there;
+//! - [`control`], [`sensor`], [`clock`]: what a control, a sensor and a clock are;
+//! - [`governor`]: what may be written, a function of time and inputs;
+//! - [`model`]: the target, from `compensate values`.
+//!
+//! The only place of sockets to machines and of a clock. It computes no error: that is `trueaxis`.
+
+pub mod clock;
+pub mod control;
+pub mod cycle;
+pub mod expect;
+pub mod file;
+pub mod focas;
+pub mod governor;
+pub mod mock;
+pub mod model;
+pub mod run;
+pub mod sensor;
+pub mod start;
+pub mod status;
+pub mod store;
+
+use trueaxis_report::{NamedSchema, named_schema};
+
+/// The JSON Schemas of the documents of this crate, by name.
+pub fn schemas() -> Vec<NamedSchema> {
+    let mut all = vec![
+        named_schema::<expect::LiveExpectDocument>("live-expect"),
+        named_schema::<status::LiveStatusDocument>("live-status"),
+    ];
+    all.iter_mut().for_each(|(_, schema)| trueaxis::add_diagnostics(schema));
+    all
+}
+pub mod session;

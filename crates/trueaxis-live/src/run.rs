@@ -1,0 +1,195 @@
+//! The loop: read, decide, keep, write.
+
+use crate::clock::{Clock, date_s};
+use crate::control::{Control, LinkFault, Sent};
+use crate::cycle::{Correction, CycleInput, CycleOutput};
+use crate::file::Plan;
+use crate::governor::{Owned, Reason, State};
+use crate::sensor::Sensor;
+use crate::store::{Event, Store};
+
+/// What a person wants.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Wish {
+    /// The correction shall run; without it, it goes to zero.
+    pub run: bool,
+    /// What was latched is confirmed.
+    pub confirmed: bool,
+}
+
+/// A run with its control, sensors and store.
+pub struct Run<'a> {
+    correction: Correction,
+    control: Box<dyn Control + 'a>,
+    sensors: Vec<Box<dyn Sensor + 'a>>,
+    store: Box<dyn Store + 'a>,
+    beat: u8,
+    write_fault: Option<LinkFault>,
+    journal_fails: bool,
+    last: (State, Reason),
+    /// Nothing is written.
+    dry: bool,
+    counts: Counts,
+}
+
+/// What was counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counts {
+    /// Cycles.
+    pub cycles: u64,
+    /// Periods in which none began.
+    pub missed: u64,
+    /// Writes.
+    pub writes: u64,
+    /// Writes that failed.
+    pub failed: u64,
+}
+
+/// One cycle as it went.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cycle {
+    /// What was read.
+    pub input: CycleInput,
+    /// What it came to.
+    pub output: CycleOutput,
+}
+
+impl<'a> Run<'a> {
+    /// Of a plan, with what the journal knows.
+    pub fn new(
+        plan: &Plan,
+        owned: Option<Owned>,
+        control: impl Control + 'a,
+        sensors: Vec<Box<dyn Sensor + 'a>>,
+        store: impl Store + 'a,
+    ) -> Self {
+        Self {
+            correction: Correction::new(plan, owned),
+            control: Box::new(control),
+            sensors,
+            store: Box::new(store),
+            beat: 0,
+            write_fault: None,
+            journal_fails: false,
+            last: (State::Off, Reason::NotAsked),
+            dry: false,
+            counts: Counts::default(),
+        }
+    }
+
+    /// The same, that computes and writes nothing, no heartbeat either.
+    #[must_use]
+    pub fn dry(mut self) -> Self {
+        self.dry = true;
+        self
+    }
+
+    /// Sensors, model and governor.
+    pub fn correction(&self) -> &Correction {
+        &self.correction
+    }
+
+    /// What was counted.
+    pub fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// The store.
+    pub fn store(&mut self) -> &mut (dyn Store + 'a) {
+        &mut *self.store
+    }
+
+    /// One cycle at a time.
+    pub fn cycle(&mut self, clock: &dyn Clock, wish: Wish) -> Cycle {
+        let now_s = clock.now_s();
+        let samples = self.sensors.iter_mut().flat_map(|sensor| sensor.poll(now_s)).collect();
+        let mut seen = self.control.read(now_s);
+        if let (true, Ok(seen)) = (self.dry, &mut seen) {
+            // It gets no heartbeat from a dry run.
+            seen.tripped = false;
+        }
+        let input = CycleInput {
+            now_s,
+            samples,
+            seen,
+            write_fault: self.write_fault.take(),
+            run: wish.run,
+            confirmed: wish.confirmed,
+            journal_fails: self.journal_fails,
+        };
+        let output = self.correction.step(&input);
+        self.counts.cycles += 1;
+        self.note(now_s, &input, &output);
+        self.send(&input, &output, clock.now_s());
+        // A record that is lost does not end a run.
+        let _ = self.store.record(&input, &output.order);
+        Cycle { input, output }
+    }
+
+    /// Changes of state go into the journal.
+    fn note(&mut self, now_s: f64, input: &CycleInput, output: &CycleOutput) {
+        let now = (output.order.state, output.order.reason.clone());
+        let retry = std::mem::take(&mut self.journal_fails);
+        let same = now.0 == self.last.0 && now.1.is_like(&self.last.1);
+        if same && !retry {
+            return;
+        }
+        let event = Event {
+            at_s: now_s,
+            date_s: date_s(),
+            event: now.0.to_string(),
+            what: now.1.to_string(),
+            offsets: input.seen.as_ref().map_or_else(|_| Vec::new(), |seen| seen.offsets.clone()),
+        };
+        match self.store.event(&event) {
+            Ok(()) => self.last = now,
+            Err(_) => self.journal_fails = true,
+        }
+    }
+
+    fn send(&mut self, input: &CycleInput, output: &CycleOutput, now_s: f64) {
+        if input.seen.is_err() || self.dry {
+            return;
+        }
+        let mut offsets = output.order.write.clone();
+        if offsets.is_some() && self.store.own(&self.correction.owned()).is_err() {
+            // Not kept, so not written: the governor reads what stands there and takes it.
+            self.journal_fails = true;
+            let reason = "the journal took no entry".to_owned();
+            self.write_fault = Some(LinkFault::Down { reason });
+            offsets = None;
+        }
+        self.beat = self.beat.wrapping_add(1);
+        let writes = offsets.is_some();
+        let sent = Sent { offsets, beat: self.beat, ask_hold: output.order.ask_hold };
+        self.counts.writes += u64::from(writes);
+        if let Err(fault) = self.control.write(&sent, now_s) {
+            self.counts.failed += 1;
+            if writes {
+                self.write_fault = Some(fault);
+            }
+        }
+    }
+
+    /// Cycles until `wish` gives none, each at its time; a cycle that took too long is not made up for.
+    pub fn go(
+        &mut self,
+        clock: &dyn Clock,
+        period_s: f64,
+        mut wish: impl FnMut(f64) -> Option<Wish>,
+        mut after: impl FnMut(&mut Self, &Cycle),
+    ) {
+        let mut next_s = clock.now_s();
+        while let Some(wish) = wish(clock.now_s()) {
+            let cycle = self.cycle(clock, wish);
+            after(self, &cycle);
+            next_s += period_s;
+            let now_s = clock.now_s();
+            while next_s < now_s {
+                next_s += period_s;
+                self.counts.missed += 1;
+            }
+            clock.wait_until(next_s);
+        }
+    }
+}

@@ -1,0 +1,268 @@
+//! A run as the command starts it: mock or real control, journal on the disk, real clock, an end by the ramp.
+
+use crate::clock::{Clock, RealClock};
+use crate::control::Identity;
+use crate::cycle::{Correction, CycleInput};
+use crate::file::{Plan, read_plan};
+use crate::focas::TcpWire;
+use crate::governor::{Order, State};
+use crate::mock::MockServer;
+use crate::run::{Cycle, Run, Wish};
+use crate::start::{connect, mock_of, owner, sensors_of};
+use crate::status::{LiveState, folder_of, live_state, status_json};
+use crate::store::{DiskStore, StoreFault};
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use trueaxis::input::{Diagnostics, Files, Place};
+
+/// The state is written so often, s.
+const STATE_S: f64 = 1.0;
+/// Any port that is free, on this computer only.
+const OWN_ADDRESS: &str = "127.0.0.1:0";
+
+/// How a run is started.
+#[derive(Debug, Clone, Default)]
+pub struct Session {
+    /// The plan.
+    pub plan: PathBuf,
+    /// It ends after so much; without it when it is stopped.
+    pub for_s: Option<f64>,
+    /// Everything is computed and nothing written, no heartbeat either.
+    pub dry: bool,
+    /// A person confirms what was latched, or what differs from the journal.
+    pub confirmed: bool,
+    /// Every cycle goes into this file.
+    pub record: Option<PathBuf>,
+}
+
+/// How it ended.
+#[derive(Debug)]
+pub struct Ended {
+    /// The plan.
+    pub plan: Plan,
+    /// The last state.
+    pub last: LiveState,
+    /// Nothing of this program is left in the control.
+    pub is_clean: bool,
+}
+
+/// Runs until it is stopped: `stopped` says so, `tell` receives a line for each change of state.
+///
+/// # Errors
+/// What is wrong with plan, control or journal; nothing was written then.
+pub fn run_session(
+    session: &Session,
+    files: &Files,
+    stopped: &dyn Fn() -> bool,
+    tell: &dyn Fn(&str),
+) -> Result<(Ended, Diagnostics), Diagnostics> {
+    let mut problems = Diagnostics::new();
+    let plan = problems.keep(read_plan(files, &session.plan));
+    let Some(plan) = plan.filter(|_| !problems.has_errors()) else { return Err(problems) };
+    let clock = RealClock::start();
+    let mock = match own_mock(&plan, tell) {
+        Ok(mock) => mock,
+        Err(message) => return Err(refused(&plan, "live-no-mock", &message, problems)),
+    };
+    let own = mock.as_ref().map(|server| server.address().to_string());
+    let address = plan.control.address.clone().or(own).unwrap_or_default();
+    let wire = TcpWire::new(&address, plan.control.timeout_s);
+    let (control, identity) = match connect(&plan, wire, clock.now_s()) {
+        Ok(connected) => connected,
+        Err(found) => {
+            problems.append(found);
+            return Err(problems);
+        }
+    };
+    let Some(folder) = folder_of(&plan, &mut problems) else { return Err(problems) };
+    let (mut store, owned) = match DiskStore::open(&folder, &owner(&plan, &identity)) {
+        Ok(opened) => opened,
+        Err(fault) => return Err(unusable(&folder, &fault, problems)),
+    };
+    // A mock of its own begins with nothing in it.
+    let owned = owned.filter(|_| mock.is_none());
+    if let Some(path) = &session.record
+        && let Err(error) = store.record_into(path)
+    {
+        let place = path.display().to_string();
+        problems.error(
+            "unwritable-file",
+            Place::whole(&place),
+            format!("cannot be written: {error}"),
+            "name another file or folder",
+        );
+        return Err(problems);
+    }
+    let run = Run::new(&plan, owned, control, sensors_of(&plan), store);
+    let run = if session.dry { run.dry() } else { run };
+    let last = drive(session, &plan, (run, &identity), (&clock, stopped, tell));
+    let is_clean =
+        session.dry || (last.state == State::Off && last.axes.iter().all(|axis| axis.own == 0.0));
+    Ok((Ended { plan, last, is_clean }, problems))
+}
+
+/// The mock of a plan, on this computer.
+fn own_mock(plan: &Plan, tell: &dyn Fn(&str)) -> Result<Option<MockServer>, String> {
+    let Some(mock) = mock_of(plan) else { return Ok(None) };
+    let server = MockServer::start(mock, OWN_ADDRESS)
+        .map_err(|error| format!("the mock cannot start: {error}"))?;
+    tell(&format!("mock of a FANUC control at {}", server.address()));
+    Ok(Some(server))
+}
+
+fn refused(
+    plan: &Plan,
+    code: &'static str,
+    message: &str,
+    mut problems: Diagnostics,
+) -> Diagnostics {
+    let place = Place::whole(&plan.path.display().to_string());
+    problems.error(
+        code,
+        place,
+        message.to_owned(),
+        "start it again, or name the address of a control",
+    );
+    problems
+}
+
+fn unusable(folder: &Path, fault: &StoreFault, mut problems: Diagnostics) -> Diagnostics {
+    let place = Place::whole(&folder.display().to_string());
+    let message = fault.to_string();
+    match fault {
+        StoreFault::Held => problems.error(
+            "live-already-running",
+            place,
+            message,
+            "two runs would write into the same offset: end the other one first",
+        ),
+        StoreFault::Other(_) => problems.error(
+            "live-other-journal",
+            place,
+            message,
+            "name another folder: [journal] folder = …; remove this one only if its offset is not in the control any more",
+        ),
+        StoreFault::Disk(_) => problems.error(
+            "live-no-journal",
+            place,
+            message,
+            "without its journal a run does not know which offset is its own: name a folder that can be written",
+        ),
+    }
+    problems
+}
+
+/// The loop until it is stopped, and the ramp after it.
+fn drive(
+    session: &Session,
+    plan: &Plan,
+    (mut run, identity): (Run<'_>, &Identity),
+    (clock, stopped, tell): (&RealClock, &dyn Fn() -> bool, &dyn Fn(&str)),
+) -> LiveState {
+    let ramp_s = plan
+        .axes
+        .iter()
+        .map(|a| f64::from(a.limits.limit) / a.limits.slew_per_s)
+        .fold(0.0, f64::max);
+    let mut confirmed = session.confirmed;
+    // Since when the correction is no more wanted, s; and whether it has gone.
+    let (mut ending, gone) = (None, std::cell::Cell::new(false));
+    let mut last: Option<LiveState> = None;
+    run.go(
+        clock,
+        plan.period_s,
+        |now_s| {
+            let over = stopped() || session.for_s.is_some_and(|for_s| now_s >= for_s);
+            if over && ending.is_none() {
+                ending = Some(now_s);
+            }
+            let late = ending.is_some_and(|since_s| now_s - since_s > 1.5 * ramp_s + 10.0);
+            let confirmed = std::mem::take(&mut confirmed);
+            (!late && !gone.get()).then_some(Wish { run: ending.is_none(), confirmed })
+        },
+        |run, cycle| {
+            gone.set(is_gone(cycle) && !cycle.input.run);
+            let own = run.correction().governor().corrections();
+            let due = last.as_ref().is_none_or(|last| {
+                let order = &cycle.output.order;
+                cycle.input.now_s - last.time_s >= STATE_S
+                    || last.state != order.state
+                    || !last.cause.is_like(&order.reason)
+            });
+            if due || gone.get() {
+                let state = live_state(plan, identity, cycle, &own, run.counts());
+                let line = format!("{:8.1} s  {}: {}", state.time_s, state.state, state.reason);
+                let same = last.as_ref().is_some_and(|last| {
+                    last.state == state.state && last.cause.is_like(&state.cause)
+                });
+                if !same {
+                    tell(&line);
+                }
+                // A state that cannot be shown does not end a run; the journal says so.
+                let _ = run.store().state(&status_json(plan, true, Some(state.clone())));
+                last = Some(state);
+            }
+        },
+    );
+    // why: `go` makes a cycle before it can end: at 0 s nothing is over, unless it is stopped at once.
+    last.unwrap_or_else(|| {
+        let cycle = run.cycle(clock, Wish::default());
+        live_state(plan, identity, &cycle, &[], run.counts())
+    })
+}
+
+fn is_gone(cycle: &Cycle) -> bool {
+    cycle.output.order.state == State::Off
+}
+
+/// What a replay has shown.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Replayed {
+    /// Cycles of the record.
+    pub cycles: usize,
+    /// The first cycle whose order differs, from 1.
+    pub differs: Option<usize>,
+}
+
+/// Computes the orders of a record again.
+///
+/// # Errors
+/// A record that cannot be read, or of a plan that is none.
+pub fn replay(files: &Files, plan: &Path, record: &Path) -> Result<Replayed, Diagnostics> {
+    let mut problems = Diagnostics::new();
+    let plan = problems.keep(read_plan(files, plan));
+    let Some(plan) = plan.filter(|_| !problems.has_errors()) else { return Err(problems) };
+    let shown = record.display().to_string();
+    let bytes = files.read(record).map_err(|error| {
+        let mut problems = Diagnostics::new();
+        problems.error(
+            "unreadable-file",
+            Place::whole(&shown),
+            error.to_string(),
+            "name the record of a run",
+        );
+        problems
+    })?;
+    let mut correction = Correction::new(&plan, None);
+    let mut replayed = Replayed { cycles: 0, differs: None };
+    for line in BufReader::new(&bytes[..]).lines() {
+        let read =
+            line.ok().and_then(|line| serde_json::from_str::<(CycleInput, Order)>(&line).ok());
+        let Some((input, order)) = read else {
+            let place = Place { file: shown.clone(), line: replayed.cycles + 1, column: 1 };
+            let message = "this line is no cycle of a record".to_owned();
+            problems.error(
+                "live-record",
+                place,
+                message,
+                "a run that was killed leaves a line that is cut: remove it",
+            );
+            return Err(problems);
+        };
+        replayed.cycles += 1;
+        if correction.step(&input).order != order && replayed.differs.is_none() {
+            replayed.differs = Some(replayed.cycles);
+        }
+    }
+    Ok(replayed)
+}

@@ -1,0 +1,189 @@
+//! From a plan to a run: the control is opened and compared with the plan before anything is written.
+
+use crate::control::{Control, Identity, LinkFault};
+use crate::file::{Plan, Source};
+use crate::focas::{Fanuc, FanucSettings, Wire};
+use crate::mock::{FanucMock, MockPlan};
+use crate::sensor::{LogSensor, Sample, Sensor, Sent};
+use crate::store::Owner;
+use trueaxis::input::{Diagnostics, Place};
+use trueaxis::machine::axis::AxisKind;
+
+/// The mock of a plan whose address is `mock`.
+pub fn mock_of(plan: &Plan) -> Option<FanucMock> {
+    let (path, ladder) = plan.control.mock.clone()?;
+    let areas = plan.control.pmc.unwrap_or(UNUSED);
+    Some(FanucMock::new(MockPlan {
+        axes: plan.machine.axes().iter().map(|axis| axis.name.to_string()).collect(),
+        live: plan.axes.iter().map(|axis| axis.axis).collect(),
+        decimals: decimals(plan.axes.first().map_or(1e-3, |axis| axis.increment)).unwrap_or(3),
+        path,
+        areas,
+        referenced: plan.control.referenced,
+        inhibit: plan.control.inhibit,
+        ladder,
+    }))
+}
+
+/// Where a ladder that is not used would be.
+const UNUSED: crate::focas::PmcAreas = {
+    use crate::focas::{PmcAddress, PmcAreas, PmcBit};
+    const fn byte(byte: u16) -> PmcAddress {
+        PmcAddress { letter: 'D', byte }
+    }
+    PmcAreas {
+        command: byte(0),
+        acting: byte(64),
+        heartbeat: byte(128),
+        ask_hold: PmcBit { byte: byte(129), bit: 0 },
+        tripped: PmcBit { byte: byte(130), bit: 0 },
+    }
+};
+
+/// Digits after the decimal point of an increment that is a power of ten, in mm or deg.
+fn decimals(increment: f64) -> Option<u16> {
+    (0..=9).find(|digits| (increment * 10f64.powi(i32::from(*digits)) - 1.0).abs() < 1e-6)
+}
+
+/// Opens the control of a plan and compares it; nothing is written.
+///
+/// # Errors
+/// What differs, each with its place and its cure.
+pub fn connect<W: Wire>(
+    plan: &Plan,
+    wire: W,
+    now_s: f64,
+) -> Result<(Fanuc<W>, Identity), Diagnostics> {
+    let mut control =
+        Fanuc::new(wire, settings(plan, (1..).take(plan.machine.axes().len()).collect()));
+    let place = Place::whole(&plan.path.display().to_string());
+    let mut problems = Diagnostics::new();
+    let identity = match control.identity(now_s) {
+        Ok(identity) => identity,
+        Err(fault) => {
+            problems.error(
+                "live-no-link",
+                place,
+                format!("the control cannot be asked: {fault}"),
+                cure(&fault),
+            );
+            return Err(problems);
+        }
+    };
+    let numbers = compare(plan, &identity, &mut problems);
+    if problems.has_errors() {
+        return Err(problems);
+    }
+    Ok((control.with(settings(plan, numbers)), identity))
+}
+
+fn cure(fault: &LinkFault) -> &'static str {
+    match fault {
+        LinkFault::Refused { .. } => "the reason names what to switch on in the control",
+        LinkFault::Garbage { .. } => {
+            "is it a FANUC control with FOCAS2 over Ethernet at that port (8193)?"
+        }
+        LinkFault::Down { .. } | LinkFault::Silent { .. } => {
+            "check address and port, the Ethernet parameters of the control, and whether other clients use up its connections"
+        }
+    }
+}
+
+fn settings(plan: &Plan, numbers: Vec<u16>) -> FanucSettings {
+    FanucSettings {
+        lever: plan.control.lever,
+        numbers,
+        live: plan.axes.iter().map(|axis| axis.axis).collect(),
+        rotary: plan.machine.axes().iter().map(|axis| axis.kind == AxisKind::Rotary).collect(),
+        referenced: plan.control.referenced,
+        inhibit: plan.control.inhibit,
+        pmc: plan.control.pmc,
+    }
+}
+
+/// The numbers of the axes of the machine in the control; what differs goes to `problems`.
+fn compare(plan: &Plan, found: &Identity, problems: &mut Diagnostics) -> Vec<u16> {
+    let place = || Place::whole(&plan.path.display().to_string());
+    let Identity { kind, series, version, .. } = found;
+    if let Some(bound) = plan.control.bound.as_ref().filter(|bound| !bound.is(found)) {
+        let message = format!(
+            "the control at that address is {kind} {series} {version}, the plan is of {} {} {}",
+            bound.kind, bound.series, bound.version
+        );
+        problems.error(
+            "live-other-control",
+            place(),
+            message,
+            "correct the address; after an update of the control, its identity",
+        );
+    }
+    let mut numbers = Vec::new();
+    for (i, axis) in plan.machine.axes().iter().enumerate() {
+        let name = axis.name.to_string();
+        let Some(at) = found.axes.iter().position(|known| *known == name) else {
+            let message =
+                format!("the control has no axis {name}; it has {}", found.axes.join(" "));
+            problems.error(
+                "live-axis-missing",
+                place(),
+                message,
+                "is it the machine of the machine file, and the right path of the control?",
+            );
+            continue;
+        };
+        numbers.push(u16::try_from(at + 1).unwrap_or(u16::MAX));
+        let Some(live) = plan.axes.iter().find(|live| live.axis == i) else { continue };
+        let increment = if axis.kind == AxisKind::Rotary {
+            live.increment.to_degrees()
+        } else {
+            live.increment
+        };
+        if decimals(increment) != found.decimals.get(at).copied() {
+            let digits = found.decimals.get(at).copied().unwrap_or(0);
+            let message = format!(
+                "the control counts axis {name} with {digits} digits, the plan with an increment of {increment} mm or deg"
+            );
+            let hint = "increment is the least input increment of the control (IS-B: 1 um, IS-C: 0.1 um) in mm, not in inches";
+            problems.error("live-increment", place(), message, hint);
+        }
+    }
+    numbers
+}
+
+/// Whose offsets they are.
+pub fn owner(plan: &Plan, control: &Identity) -> Owner {
+    let axes = plan.axes.iter().map(|axis| axis.name.clone()).collect();
+    Owner { machine: plan.machine.name().to_owned(), control: control.clone(), axes }
+}
+
+/// The sensors of a plan.
+pub fn sensors_of(plan: &Plan) -> Vec<Box<dyn Sensor>> {
+    let sensor = |(i, sensor): (usize, &crate::file::SensorPlan)| -> Box<dyn Sensor> {
+        match &sensor.source {
+            Source::Log { log, column, start_s, speed } => {
+                Box::new(LogSensor::new(log.clone(), column, i, *start_s).at_speed(*speed))
+            }
+            Source::Constant { celsius } => {
+                Box::new(ConstantSensor { sensor: i, celsius: *celsius, next_s: 0.0 })
+            }
+        }
+    };
+    plan.sensors.iter().enumerate().map(sensor).collect()
+}
+
+/// One value, every second.
+struct ConstantSensor {
+    sensor: usize,
+    celsius: f64,
+    next_s: f64,
+}
+
+impl Sensor for ConstantSensor {
+    fn poll(&mut self, now_s: f64) -> Vec<Sample> {
+        if now_s < self.next_s {
+            return Vec::new();
+        }
+        self.next_s = now_s + 1.0;
+        vec![Sample { sensor: self.sensor, sent: Sent::number(self.celsius), taken_s: Some(now_s) }]
+    }
+}

@@ -1,0 +1,296 @@
+//! The state of a run, as the document `trueaxis/live-status/1`, a report, and the question that reads it.
+
+use crate::control::Identity;
+use crate::file::{Plan, read_plan};
+use crate::governor::{Reason, State};
+use crate::run::{Counts, Cycle};
+use crate::store::{is_running, last_state, own_folder};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::path::PathBuf;
+use trueaxis::input::{Diagnostics, Files, Place};
+use trueaxis::machine::axis::AxisKind;
+use trueaxis::questions::{Answer, Question, Tell, complete};
+use trueaxis_report::numbers::fixed;
+use trueaxis_report::{Report, Section, Table, document};
+
+/// The state of a live run, or what the last run has left.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LiveStatusDocument {
+    /// Which document this is.
+    #[schemars(extend("const" = "trueaxis/live-status/1"))]
+    pub schema: String,
+    /// The name of the plan.
+    pub name: String,
+    /// Whether a run is going on now.
+    pub running: bool,
+    /// The last state that is known; null if the plan never ran here.
+    pub last: Option<LiveState>,
+}
+
+/// The state after one cycle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LiveState {
+    /// The state.
+    pub state: State,
+    /// Why it is in that state, in words.
+    pub reason: String,
+    /// The same for programs.
+    pub cause: Reason,
+    /// The clock of the run, s from its start.
+    pub time_s: f64,
+    /// When it was written, seconds since 1970 (UTC).
+    pub date_s: u64,
+    /// Which error is compensated: comprehensive, or that of the machine alone.
+    pub of: String,
+    /// The plan and machine file that the run began with; an edited file has no effect on it.
+    pub plan_hash: String,
+    /// The control, as it says it: kind, series and version.
+    pub control: Vec<String>,
+    /// The live axes.
+    pub axes: Vec<LiveAxisEntry>,
+    /// The sensors.
+    pub sensors: Vec<LiveSensorEntry>,
+    /// The feed along the path; null without a link.
+    pub feed_mm_per_min: Option<f64>,
+    /// An axis has used four fifths of its limit.
+    pub near_limit: bool,
+    /// An axis stands outside its travel: its error is that of the end.
+    pub outside_travel: bool,
+    /// Cycles so far.
+    pub cycles: u64,
+    /// Periods in which no cycle began.
+    pub missed: u64,
+    /// Writes of offsets so far.
+    pub writes: u64,
+    /// Writes that failed.
+    pub failed_writes: u64,
+}
+
+/// One live axis.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LiveAxisEntry {
+    /// Its letter.
+    pub axis: String,
+    /// The unit of its numbers: um or urad.
+    pub unit: String,
+    /// The position of the program, mm or deg; null without a link. Unit: mm or deg.
+    pub position: Option<f64>,
+    /// The offset that the control holds, in the unit. Unit: that of `unit`.
+    pub offset: Option<f64>,
+    /// The offset that acts, where the control reports it. Unit: that of `unit`.
+    pub acting: Option<f64>,
+    /// The part of the offset that this program has written. Unit: that of `unit`.
+    pub own: f64,
+    /// Where it goes. Unit: that of `unit`.
+    pub target: Option<f64>,
+    /// Its limit. Unit: that of `unit`.
+    pub limit: f64,
+}
+
+/// One sensor.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LiveSensorEntry {
+    /// Its name.
+    pub sensor: String,
+    /// The sensor of the machine file that it is.
+    pub input: String,
+    /// Its temperature; null if it cannot be used.
+    pub celsius: Option<f64>,
+    /// The age of its last good sample.
+    pub age_s: Option<f64>,
+    /// Why it cannot be used.
+    pub fault: Option<String>,
+    /// The sensor that stands in for it.
+    pub instead: Option<String>,
+}
+
+impl LiveStatusDocument {
+    fn of(name: &str, running: bool, last: Option<LiveState>) -> Self {
+        Self { schema: "trueaxis/live-status/1".to_owned(), name: name.to_owned(), running, last }
+    }
+}
+
+/// The state after a cycle.
+pub fn live_state(
+    plan: &Plan,
+    control: &Identity,
+    cycle: &Cycle,
+    own: &[i32],
+    counts: Counts,
+) -> LiveState {
+    let order = &cycle.output.order;
+    let seen = cycle.input.seen.as_ref().ok();
+    let axes = plan.axes.iter().enumerate().map(|(i, axis)| {
+        let is_linear = plan.machine.axes()[axis.axis].kind == AxisKind::Linear;
+        let scale = axis.increment * if is_linear { 1e3 } else { 1e6 };
+        let counted = |list: &Vec<i32>| list.get(i).map(|n| f64::from(*n) * scale);
+        let position = cycle.output.programmed.map(|at| at[axis.axis]);
+        LiveAxisEntry {
+            axis: axis.name.clone(),
+            unit: if is_linear { "um" } else { "urad" }.to_owned(),
+            position: position.map(|at| if is_linear { at } else { at.to_degrees() }),
+            offset: seen.and_then(|seen| counted(&seen.offsets)),
+            acting: seen.and_then(|seen| seen.acting.as_ref()).and_then(counted),
+            own: own.get(i).map_or(0.0, |n| f64::from(*n) * scale),
+            target: cycle.output.target.as_ref().and_then(|t| t.offsets.get(i)).map(|t| t * scale),
+            limit: f64::from(axis.limits.limit) * scale,
+        }
+    });
+    let sensors =
+        plan.sensors.iter().zip(&cycle.output.sensors).map(|(sensor, judged)| LiveSensorEntry {
+            sensor: sensor.settings.name.clone(),
+            input: sensor.settings.input.clone(),
+            celsius: judged.celsius.as_ref().ok().copied(),
+            age_s: judged.age_s,
+            fault: judged.celsius.as_ref().err().map(ToString::to_string),
+            instead: judged.instead.map(|i| plan.sensors[i].settings.name.clone()),
+        });
+    LiveState {
+        state: order.state,
+        reason: order.reason.to_string(),
+        cause: order.reason.clone(),
+        time_s: cycle.input.now_s,
+        date_s: crate::clock::date_s(),
+        of: plan.of.name().to_owned(),
+        plan_hash: plan.hash.clone(),
+        control: vec![control.kind.clone(), control.series.clone(), control.version.clone()],
+        axes: axes.collect(),
+        sensors: sensors.collect(),
+        feed_mm_per_min: seen.map(|seen| seen.feed_mm_per_min),
+        near_limit: order.near_limit,
+        outside_travel: cycle.output.target.as_ref().is_some_and(|t| t.is_clamped),
+        cycles: counts.cycles,
+        missed: counts.missed,
+        writes: counts.writes,
+        failed_writes: counts.failed,
+    }
+}
+
+/// The document of a run, going on or ended.
+pub fn status_json(plan: &Plan, running: bool, last: Option<LiveState>) -> Value {
+    complete(document(&LiveStatusDocument::of(&plan.name, running, last)), &Diagnostics::new())
+}
+
+/// A state as text.
+pub fn shown_state(plan: &Plan, last: &LiveState) -> String {
+    state_report(Report::new(&plan.name), last).text()
+}
+
+/// Where the journal of a plan is kept; a problem where the system names no place for it.
+pub fn folder_of(plan: &Plan, problems: &mut Diagnostics) -> Option<PathBuf> {
+    let found = plan.folder.clone().or_else(|| own_folder(&plan.path, plan.machine.name()));
+    if found.is_none() {
+        let place = Place::whole(&plan.path.display().to_string());
+        let message = "the system names no folder for the journal".to_owned();
+        problems.error("live-no-folder", place, message, "[journal] folder = \"journal\"");
+    }
+    found
+}
+
+/// What a run is doing, or what it has left.
+#[derive(Debug, Clone)]
+pub struct LiveStatus {
+    /// The plan.
+    pub plan: PathBuf,
+}
+
+/// The answer.
+#[derive(Debug)]
+pub struct LiveStatusAnswer(LiveStatusDocument);
+
+impl Question for LiveStatus {
+    type Input = (Plan, PathBuf);
+    type Answer = LiveStatusAnswer;
+
+    fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
+        let plan = problems.keep(read_plan(files, &self.plan))?;
+        let folder = folder_of(&plan, problems)?;
+        Some((plan, folder))
+    }
+
+    fn answer(
+        &self,
+        (plan, folder): Self::Input,
+        _: Tell<'_>,
+        problems: &mut Diagnostics,
+    ) -> Option<LiveStatusAnswer> {
+        let read = |value| serde_json::from_value::<LiveStatusDocument>(value).ok();
+        let last = last_state(&folder).map(read);
+        let last = match last {
+            None => None,
+            Some(Some(document)) => document.last,
+            Some(None) => {
+                let place = Place::whole(&folder.join("state.json").display().to_string());
+                let message = "the state of the last run cannot be read".to_owned();
+                problems.error(
+                    "live-state",
+                    place,
+                    message,
+                    "it is of another version of this program: remove it",
+                );
+                return None;
+            }
+        };
+        Some(LiveStatusAnswer(LiveStatusDocument::of(&plan.name, is_running(&folder), last)))
+    }
+}
+
+impl Answer for LiveStatusAnswer {
+    fn document(&self, problems: &Diagnostics) -> Value {
+        complete(document(&self.0), problems)
+    }
+
+    fn report(&self) -> Report<'_> {
+        let report =
+            Report::new(&self.0.name).line(if self.0.running { "running" } else { "not running" });
+        match &self.0.last {
+            None => report.line("it has not run here"),
+            Some(last) => state_report(report, last),
+        }
+    }
+}
+
+/// A state for readers.
+pub fn state_report<'a>(report: Report<'a>, last: &LiveState) -> Report<'a> {
+    let shown =
+        |value: Option<f64>, digits| value.map_or_else(|| "–".to_owned(), |v| fixed(v, digits));
+    let axes = last.axes.iter().map(|axis| {
+        let unit = if axis.unit == "um" { "µm" } else { "µrad" };
+        [
+            axis.axis.clone(),
+            shown(axis.position, 3),
+            shown(axis.offset, 1),
+            shown(axis.acting, 1),
+            shown(axis.target, 1),
+            fixed(axis.limit, 0),
+            unit.to_owned(),
+        ]
+    });
+    let headings = ["axis", "position, mm or deg", "offset", "acts", "target", "limit", ""];
+    let sensors = last.sensors.iter().map(|sensor| {
+        let fault = match (&sensor.fault, &sensor.instead) {
+            (Some(fault), _) => fault.clone(),
+            (None, Some(other)) => format!("{other} stands in"),
+            (None, None) => String::new(),
+        };
+        [sensor.sensor.clone(), shown(sensor.celsius, 2), shown(sensor.age_s, 1), fault]
+    });
+    let counts = format!(
+        "{} cycles, {} periods missed, {} writes, {} failed",
+        last.cycles, last.missed, last.writes, last.failed_writes
+    );
+    report
+        .line(format!(
+            "{}: {} ({} s after the start)",
+            last.state,
+            last.reason,
+            fixed(last.time_s, 1)
+        ))
+        .line(counts)
+        .section(Section::new("Offsets").table(Table::new(headings).rows(axes)))
+        .section(
+            Section::new("Sensors").table(Table::new(["sensor", "°C", "age, s", ""]).rows(sensors)),
+        )
+}

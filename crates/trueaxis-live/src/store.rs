@@ -1,0 +1,65 @@
+//! What a run leaves: what it owns in the control, its events, its state, its record.
+
+mod disk;
+mod memory;
+
+pub use disk::{DiskStore, StoreFault, is_running, last_state, own_folder};
+pub use memory::{MemoryStore, Noted};
+
+use crate::control::Identity;
+use crate::cycle::CycleInput;
+use crate::governor::{Order, Owned};
+use serde::{Deserialize, Serialize};
+
+/// Whose offsets they are.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Owner {
+    /// The name of the machine.
+    pub machine: String,
+    /// The control.
+    pub control: Identity,
+    /// The live axes.
+    pub axes: Vec<String>,
+}
+
+/// A line of the journal.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Event {
+    /// The clock of the run.
+    pub at_s: f64,
+    /// The date, seconds since 1970 (UTC), for readers only.
+    pub date_s: u64,
+    /// What happened, in one word.
+    pub event: String,
+    /// More about it.
+    pub what: String,
+    /// The offsets at that time, increments.
+    pub offsets: Vec<i32>,
+}
+
+/// Keeps it.
+pub trait Store {
+    /// What will be in the control after the next write; kept before it is written.
+    ///
+    /// # Errors
+    /// What the disk says: then nothing is written.
+    fn own(&mut self, owned: &Owned) -> Result<(), String>;
+
+    /// A line of the journal.
+    ///
+    /// # Errors
+    /// What the disk says.
+    fn event(&mut self, event: &Event) -> Result<(), String>;
+
+    /// The present state, for `trueaxis live status`.
+    ///
+    /// # Errors
+    /// What the disk says.
+    fn state(&mut self, document: &serde_json::Value) -> Result<(), String>;
+
+    /// One cycle, where a record is wanted.
+    ///
+    /// # Errors
+    /// What the disk says.
+    fn record(&mut self, input: &CycleInput, order: &Order) -> Result<(), String>;
+}

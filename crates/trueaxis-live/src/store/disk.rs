@@ -1,0 +1,205 @@
+//! A store in a folder of its own: `lock`, `owned`, `journal.jsonl`, `state.json`.
+//!
+//! `owned` has two lines of fixed length that are written in turn, each with a number and a checksum: a run that is killed
+//! while it writes one leaves the other. The journal only grows by events, never by cycles.
+
+use super::{Event, Owner, Store};
+use crate::control::Identity;
+use crate::cycle::CycleInput;
+use crate::governor::{Order, Owned};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+/// Of one line of `owned`.
+const LINE: usize = 2048;
+
+/// Why a store cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum StoreFault {
+    /// Another run holds it.
+    #[error("another run holds this folder")]
+    Held,
+    /// It is of another machine, control or set of axes.
+    #[error("it is of {0}")]
+    Other(String),
+    /// The disk.
+    #[error("it cannot be opened: {0}")]
+    Disk(#[from] io::Error),
+}
+
+/// The journal of one machine on the disk.
+#[derive(Debug)]
+pub struct DiskStore {
+    folder: PathBuf,
+    owner: Owner,
+    owned: File,
+    number: u64,
+    journal: File,
+    record: Option<BufWriter<File>>,
+    /// Held as long as the run lasts.
+    _lock: File,
+}
+
+/// One line of `owned`.
+#[derive(Debug, Serialize, Deserialize)]
+struct Line {
+    number: u64,
+    owner: Owner,
+    owned: Owned,
+}
+
+/// The folder of a plan where none is stated: that of the user for such files, by the name of the machine and the place of
+/// the plan; none where the system names no such folder.
+pub fn own_folder(plan: &Path, machine: &str) -> Option<PathBuf> {
+    let variable = |name| std::env::var_os(name).filter(|v| !v.is_empty()).map(PathBuf::from);
+    let state =
+        variable("XDG_STATE_HOME").or_else(|| Some(variable("HOME")?.join(".local/state")))?;
+    let whole = fs::canonicalize(plan).or_else(|_| std::path::absolute(plan)).ok()?;
+    let sum = checksum(whole.as_os_str().as_encoded_bytes());
+    let safe = |c: char| if c.is_ascii_alphanumeric() { c } else { '-' };
+    let name: String = machine.chars().map(safe).take(40).collect();
+    Some(state.join("trueaxis/live").join(format!("{name}-{sum:08x}")))
+}
+
+/// Whether a run holds this folder.
+pub fn is_running(folder: &Path) -> bool {
+    let lock = File::open(folder.join("lock"));
+    lock.is_ok_and(|file| matches!(file.try_lock(), Err(fs::TryLockError::WouldBlock)))
+}
+
+/// The state that the last run has left.
+pub fn last_state(folder: &Path) -> Option<Value> {
+    let text = fs::read_to_string(folder.join("state.json")).ok()?;
+    serde_json::from_str(&text).ok()
+}
+
+/// FNV-1a with 32 bits.
+fn checksum(bytes: &[u8]) -> u32 {
+    bytes
+        .iter()
+        .fold(0x811c_9dc5u32, |sum, byte| (sum ^ u32::from(*byte)).wrapping_mul(0x0100_0193))
+}
+
+#[cfg(unix)]
+fn make(folder: &Path) -> io::Result<()> {
+    use std::os::unix::fs::DirBuilderExt;
+    // For its owner only.
+    fs::DirBuilder::new().recursive(true).mode(0o700).create(folder)
+}
+
+#[cfg(not(unix))]
+fn make(folder: &Path) -> io::Result<()> {
+    fs::create_dir_all(folder)
+}
+
+impl DiskStore {
+    /// Opens the folder for one run, and gives what an earlier one owns.
+    ///
+    /// # Errors
+    /// [`StoreFault`].
+    pub fn open(folder: &Path, owner: &Owner) -> Result<(Self, Option<Owned>), StoreFault> {
+        make(folder)?;
+        let open = |name: &str| {
+            OpenOptions::new()
+                .read(true)
+                .write(true)
+                .create(true)
+                .truncate(false)
+                .open(folder.join(name))
+        };
+        let lock = open("lock")?;
+        match lock.try_lock() {
+            Ok(()) => {}
+            Err(fs::TryLockError::WouldBlock) => return Err(StoreFault::Held),
+            Err(fs::TryLockError::Error(error)) => return Err(error.into()),
+        }
+        let mut owned = open("owned")?;
+        let last = lines(&mut owned)?.into_iter().max_by_key(|line| line.number);
+        if let Some(line) = last.as_ref().filter(|line| line.owner != *owner) {
+            let Owner { machine, control, axes } = &line.owner;
+            let Identity { kind, series, version, .. } = control;
+            let axes = axes.join(" ");
+            return Err(StoreFault::Other(format!(
+                "{machine}, control {kind} {series} {version}, axes {axes}"
+            )));
+        }
+        let journal =
+            OpenOptions::new().append(true).create(true).open(folder.join("journal.jsonl"))?;
+        let number = last.as_ref().map_or(0, |line| line.number);
+        let store = Self {
+            folder: folder.to_owned(),
+            owner: owner.clone(),
+            owned,
+            number,
+            journal,
+            record: None,
+            _lock: lock,
+        };
+        Ok((store, last.map(|line| line.owned)))
+    }
+
+    /// Records every cycle into this file.
+    ///
+    /// # Errors
+    /// What the disk says.
+    pub fn record_into(&mut self, path: &Path) -> io::Result<()> {
+        self.record = Some(BufWriter::new(File::create(path)?));
+        Ok(())
+    }
+
+    /// Where it is.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+}
+
+/// The lines that are whole.
+fn lines(file: &mut File) -> io::Result<Vec<Line>> {
+    let mut text = Vec::new();
+    file.seek(SeekFrom::Start(0))?;
+    file.take(2 * LINE as u64).read_to_end(&mut text)?;
+    let whole = |bytes: &[u8]| {
+        let text = std::str::from_utf8(bytes).ok()?;
+        let (sum, rest) = text.trim_end().split_once(' ')?;
+        let sound = u32::from_str_radix(sum, 16).is_ok_and(|sum| sum == checksum(rest.as_bytes()));
+        serde_json::from_str(rest).ok().filter(|_| sound)
+    };
+    Ok(text.chunks(LINE).filter_map(whole).collect())
+}
+
+impl Store for DiskStore {
+    fn own(&mut self, owned: &Owned) -> Result<(), String> {
+        self.number += 1;
+        let line = Line { number: self.number, owner: self.owner.clone(), owned: owned.clone() };
+        let text = serde_json::to_string(&line).map_err(|e| e.to_string())?;
+        let mut bytes = format!("{:08x} {text}", checksum(text.as_bytes())).into_bytes();
+        if bytes.len() >= LINE {
+            return Err("too many axes for the journal".to_owned());
+        }
+        bytes.resize(LINE - 1, b' ');
+        bytes.push(b'\n');
+        let place = (self.number % 2) * LINE as u64;
+        let placed = self.owned.seek(SeekFrom::Start(place));
+        placed.and_then(|_| self.owned.write_all(&bytes)).map_err(|e| e.to_string())
+    }
+
+    fn event(&mut self, event: &Event) -> Result<(), String> {
+        let line = serde_json::to_string(event).map_err(|e| e.to_string())? + "\n";
+        self.journal.write_all(line.as_bytes()).map_err(|e| e.to_string())
+    }
+
+    fn state(&mut self, document: &Value) -> Result<(), String> {
+        let text = format!("{document:#}\n");
+        trueaxis::files::write(&self.folder.join("state.json"), text.as_bytes())
+            .map_err(|e| e.to_string())
+    }
+
+    fn record(&mut self, input: &CycleInput, order: &Order) -> Result<(), String> {
+        let Some(file) = &mut self.record else { return Ok(()) };
+        let line = serde_json::to_string(&(input, order)).map_err(|e| e.to_string())? + "\n";
+        file.write_all(line.as_bytes()).map_err(|e| e.to_string())
+    }
+}

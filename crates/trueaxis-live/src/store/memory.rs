@@ -1,0 +1,57 @@
+//! A store in memory, for tests and forecasts.
+
+use super::{Event, Store};
+use crate::cycle::CycleInput;
+use crate::governor::{Order, Owned};
+use std::cell::RefCell;
+use std::rc::Rc;
+
+/// What was kept.
+#[derive(Debug, Clone, Default)]
+pub struct Noted {
+    /// What was owned last.
+    pub owned: Option<Owned>,
+    /// The events.
+    pub events: Vec<Event>,
+    /// The record.
+    pub cycles: Vec<(CycleInput, Order)>,
+    /// Nothing can be kept.
+    pub fails: bool,
+    /// Whether cycles are recorded.
+    pub records: bool,
+}
+
+/// Keeps everything in memory; all clones keep in the same place.
+#[derive(Debug, Clone, Default)]
+pub struct MemoryStore(pub Rc<RefCell<Noted>>);
+
+impl MemoryStore {
+    fn unless_failing(&self) -> Result<(), String> {
+        if self.0.borrow().fails { Err("no space left on device".to_owned()) } else { Ok(()) }
+    }
+}
+
+impl Store for MemoryStore {
+    fn own(&mut self, owned: &Owned) -> Result<(), String> {
+        self.unless_failing()?;
+        self.0.borrow_mut().owned = Some(owned.clone());
+        Ok(())
+    }
+
+    fn event(&mut self, event: &Event) -> Result<(), String> {
+        self.unless_failing()?;
+        self.0.borrow_mut().events.push(event.clone());
+        Ok(())
+    }
+
+    fn state(&mut self, _: &serde_json::Value) -> Result<(), String> {
+        self.unless_failing()
+    }
+
+    fn record(&mut self, input: &CycleInput, order: &Order) -> Result<(), String> {
+        if self.0.borrow().records {
+            self.0.borrow_mut().cycles.push((input.clone(), order.clone()));
+        }
+        Ok(())
+    }
+}
