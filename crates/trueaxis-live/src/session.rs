@@ -35,6 +35,12 @@ pub struct Session {
     pub record: Option<PathBuf>,
 }
 
+/// Says whether a run shall end.
+pub type Stopped<'a> = &'a dyn Fn() -> bool;
+
+/// Receives a line for each change of state.
+pub type Lines<'a> = &'a dyn Fn(&str);
+
 /// How it ended.
 #[derive(Debug)]
 pub struct Ended {
@@ -53,8 +59,8 @@ pub struct Ended {
 pub fn run_session(
     session: &Session,
     files: &Files,
-    stopped: &dyn Fn() -> bool,
-    tell: &dyn Fn(&str),
+    stopped: Stopped<'_>,
+    tell: Lines<'_>,
 ) -> Result<(Ended, Diagnostics), Diagnostics> {
     let mut problems = Diagnostics::new();
     let plan = problems.keep(read_plan(files, &session.plan));
@@ -157,7 +163,7 @@ fn drive(
     session: &Session,
     plan: &Plan,
     (mut run, identity): (Run<'_>, &Identity),
-    (clock, stopped, tell): (&RealClock, &dyn Fn() -> bool, &dyn Fn(&str)),
+    (clock, stopped, tell): (&RealClock, Stopped<'_>, Lines<'_>),
 ) -> LiveState {
     let ramp_s = plan
         .axes

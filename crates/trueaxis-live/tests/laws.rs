@@ -1,7 +1,7 @@
 //! Laws of the governor and of the frames, over random input.
 //!
 //! `PROPTEST_CASES` and `TRUEAXIS_GOVERNOR_STEPS` (default 60,000) make the runs longer:
-//! `TRUEAXIS_GOVERNOR_STEPS=1000000 cargo test --release -p trueaxis-live --test laws law_governor`.
+//! `TRUEAXIS_GOVERNOR_STEPS=1000000 cargo test --release -p trueaxis-live --test laws law_governor -- --nocapture`.
 
 use proptest::prelude::*;
 use trueaxis_live::control::{Mode, Seen};
@@ -26,7 +26,7 @@ impl Random {
     }
 
     fn one_in(&mut self, n: u64) -> bool {
-        self.next() % n == 0
+        self.next().is_multiple_of(n)
     }
 
     /// 0 to 1.
@@ -215,6 +215,7 @@ fn faults(
 }
 
 #[test]
+#[expect(clippy::print_stdout, reason = "the named long run shows what it has tried")]
 fn law_governor_limits_are_never_broken() {
     let wanted = std::env::var("TRUEAXIS_GOVERNOR_STEPS").ok().and_then(|n| n.parse().ok());
     let steps: u64 = wanted.unwrap_or(60_000);
