@@ -13,7 +13,7 @@ INNER = {
     "Length": ("mm", "mm um µm nm cm m in"),
     "Angle": ("rad", "rad mrad mm/m urad µrad um/m µm/m deg ° arcmin ′ arcsec ″"),
     "Time": ("s", "s ms min h"),
-    "Velocity": ("mm/s", "mm/s mm/min m/min m/s mm/h um/h"),
+    "Velocity": ("mm/s", "mm/s mm/min m/min m/s um/s mm/h um/h"),
     "Acceleration": ("mm/s^2", "mm/s^2 mm/s² m/s^2 m/s²"),
     "Jerk": ("mm/s^3", "mm/s^3 mm/s³ m/s^3 m/s³"),
     "AngularVelocity": ("rad/s", "rad/s deg/s °/s deg/min °/min rpm 1/min urad/h"),
