@@ -65,7 +65,7 @@ fn a_run_leaves_its_state_and_nothing_in_the_control() {
 fn a_second_run_is_refused_and_an_interrupt_ends_the_first() {
     let folder = Folder::new("live-two");
     let mut first = live(&folder, &[PLAN]);
-    let mut first = first.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("it starts");
+    let first = first.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("it starts");
     let running = || {
         let (status, out, err) = ran(&folder, &["status", PLAN, "--format", "json"]);
         assert_eq!(status, 0, "{err}");
