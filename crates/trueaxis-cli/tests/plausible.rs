@@ -186,7 +186,7 @@ fn a_limit_or_an_uncertainty_with_a_slip_of_the_unit() {
     let given = file("5 mm");
     found(&[&evaluate[..], &["--tolerances", &given]].concat(), 0, "warning", IMPLAUSIBLE, &words);
     let typed = [&evaluate[..], &["--tolerance", "A=16 m"]].concat();
-    found(&typed, 2, "error", IMPOSSIBLE, &["--tolerance", "16 m"]);
+    found(&typed, 2, "error", IMPOSSIBLE, &["--tolerance:0", "16 m"]);
     let text = "name = \"x\"\n[tolerance]\nA = \"16 m\"\n[plausible]\nreading_um = 2e7\n";
     let stated = folder.file("stated.toml", text);
     let ran = trueaxis(&[&evaluate[..], &["--tolerances", &stated, "--format", "json"]].concat());
