@@ -241,6 +241,95 @@ export type QuantityEntry =
       [k: string]: number | null;
     };
 /**
+ * The state of a run.
+ */
+export type State = "off" | "arm" | "run" | "hold" | "ramp-down" | "latched";
+/**
+ * Why a run is in its state.
+ */
+export type Reason =
+  | {
+      kind: "not-asked";
+    }
+  | {
+      kind: "follows";
+    }
+  | {
+      kind: "limit";
+    }
+  | {
+      kind: "link-lost";
+      /**
+       * What the connection says.
+       */
+      what: string;
+    }
+  | {
+      kind: "emergency";
+    }
+  | {
+      kind: "not-homed";
+    }
+  | {
+      kind: "homed-again";
+    }
+  | {
+      kind: "watchdog";
+    }
+  | {
+      kind: "inhibited";
+    }
+  | {
+      kind: "mode";
+    }
+  | {
+      kind: "sensor";
+      /**
+       * Its name.
+       */
+      sensor: string;
+      /**
+       * What is wrong.
+       */
+      what: string;
+    }
+  | {
+      kind: "workpiece";
+      /**
+       * Its name.
+       */
+      sensor: string;
+      /**
+       * What is wrong.
+       */
+      what: string;
+    }
+  | {
+      kind: "model";
+      /**
+       * What it says.
+       */
+      what: string;
+    }
+  | {
+      kind: "not-finite";
+    }
+  | {
+      kind: "jump";
+    }
+  | {
+      kind: "write-refused";
+    }
+  | {
+      kind: "journal";
+    }
+  | {
+      kind: "foreign";
+    }
+  | {
+      kind: "difference";
+    };
+/**
  * The check of a program, or why there is none.
  */
 export type PlanProgramEntry =
@@ -640,6 +729,8 @@ export interface Documents {
   "identify-tables": IdentifyTables;
   "identify-thermal": IdentifyThermal;
   "identify-tools": IdentifyTools;
+  "live-expect": LiveExpect;
+  "live-status": LiveStatus;
   "measure-part": MeasurePart;
   measure: Measure;
   "plan-probe-surface": PlanProbeSurface;
@@ -7503,6 +7594,338 @@ export interface MeasuredToolEntry {
    * What cannot be decided.
    */
   doubts: string[];
+}
+/**
+ * What a lever would leave.
+ */
+export interface LiveExpect {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/live-expect/1";
+  /**
+   * The name of the plan.
+   */
+  name: string;
+  /**
+   * The log.
+   */
+  log: string;
+  /**
+   * Each live axis over the whole day.
+   */
+  axes: ExpectedAxis[];
+  /**
+   * Each row of the log that was evaluated.
+   */
+  times: ExpectedTime[];
+  /**
+   * What no offset of an axis changes: the largest deviation of the tool axis over the day; null without rotary axes and
+   * angular errors.
+   */
+  tool_axis_urad: number | null;
+  /**
+   * The largest deviation of the tip in the directions that no live axis corrects, and by errors that do not change with
+   * the position of their axis: squareness, straightness, roll.
+   */
+  other_tip_um: number;
+  /**
+   * The problems found in the input; the command line prints them on standard error, too.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * One live axis over the day. Numbers are in `unit`.
+ */
+export interface ExpectedAxis {
+  /**
+   * Its letter.
+   */
+  axis: string;
+  /**
+   * um or urad.
+   */
+  unit: string;
+  /**
+   * The largest error without the correction. Unit: that of `unit`.
+   */
+  before: number;
+  /**
+   * The largest error with it, standing still. Unit: that of `unit`.
+   */
+  after: number;
+  /**
+   * Of it: the temperatures have changed since the last sample. Unit: that of `unit`.
+   */
+  by_age: number;
+  /**
+   * Of it: whole increments and the dead band. Unit: that of `unit`.
+   */
+  by_increment: number;
+  /**
+   * More while the axis moves at its largest velocity: velocity × slope × age of the position; null where the machine
+   * file states no velocity. Unit: that of `unit`.
+   */
+  moving: number | null;
+  /**
+   * How fast the offset must change then, in the unit per second; null as above. Unit: that of `unit`.
+   */
+  needed_per_s: number | null;
+  /**
+   * How fast it may change. Unit: that of `unit`.
+   */
+  slew_per_s: number;
+  /**
+   * The largest offset that is needed; it is clamped at the limit. Unit: that of `unit`.
+   */
+  needed: number;
+  /**
+   * The limit of the plan. Unit: that of `unit`.
+   */
+  limit: number;
+  /**
+   * Expanded uncertainty (k = 2) of the error that is corrected, by the machine file; null where it states none. Unit: that of `unit`.
+   */
+  expanded_uncertainty: number | null;
+}
+/**
+ * One row of the log.
+ */
+export interface ExpectedTime {
+  /**
+   * In the log.
+   */
+  time_s: number;
+  /**
+   * The largest error of each live axis without the correction, in its unit. Unit: that of `unit`.
+   */
+  before: number[];
+  /**
+   * With it. Unit: that of `unit`.
+   */
+  after: number[];
+}
+/**
+ * The state of a live run, or what the last run has left.
+ */
+export interface LiveStatus {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/live-status/1";
+  /**
+   * The name of the plan.
+   */
+  name: string;
+  /**
+   * Whether a run is going on now.
+   */
+  running: boolean;
+  /**
+   * The last state that is known; null if the plan never ran here.
+   */
+  last: LiveState | null;
+  /**
+   * The problems found in the input; the command line prints them on standard error, too.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * The state after one cycle.
+ */
+export interface LiveState {
+  /**
+   * The state.
+   */
+  state: State;
+  /**
+   * Why it is in that state, in words.
+   */
+  reason: string;
+  /**
+   * The same for programs.
+   */
+  cause: Reason;
+  /**
+   * The clock of the run, s from its start.
+   */
+  time_s: number;
+  /**
+   * When it was written, seconds since 1970 (UTC).
+   */
+  date_s: number;
+  /**
+   * Which error is compensated: comprehensive, or that of the machine alone.
+   */
+  of: string;
+  /**
+   * The plan and machine file that the run began with; an edited file has no effect on it.
+   */
+  plan_hash: string;
+  /**
+   * The control, as it says it: kind, series and version.
+   */
+  control: string[];
+  /**
+   * The live axes.
+   */
+  axes: LiveAxisEntry[];
+  /**
+   * The sensors.
+   */
+  sensors: LiveSensorEntry[];
+  /**
+   * The feed along the path; null without a link.
+   */
+  feed_mm_per_min: number | null;
+  /**
+   * An axis has used four fifths of its limit.
+   */
+  near_limit: boolean;
+  /**
+   * An axis stands outside its travel: its error is that of the end.
+   */
+  outside_travel: boolean;
+  /**
+   * Cycles so far.
+   */
+  cycles: number;
+  /**
+   * Periods in which no cycle began.
+   */
+  missed: number;
+  /**
+   * Writes of offsets so far.
+   */
+  writes: number;
+  /**
+   * Writes that failed.
+   */
+  failed_writes: number;
+}
+/**
+ * One live axis.
+ */
+export interface LiveAxisEntry {
+  /**
+   * Its letter.
+   */
+  axis: string;
+  /**
+   * The unit of its numbers: um or urad.
+   */
+  unit: string;
+  /**
+   * The position of the program, mm or deg; null without a link. Unit: mm or deg.
+   */
+  position: number | null;
+  /**
+   * The offset that the control holds, in the unit. Unit: that of `unit`.
+   */
+  offset: number | null;
+  /**
+   * The offset that acts, where the control reports it. Unit: that of `unit`.
+   */
+  acting: number | null;
+  /**
+   * The part of the offset that this program has written. Unit: that of `unit`.
+   */
+  own: number;
+  /**
+   * Where it goes. Unit: that of `unit`.
+   */
+  target: number | null;
+  /**
+   * Its limit. Unit: that of `unit`.
+   */
+  limit: number;
+}
+/**
+ * One sensor.
+ */
+export interface LiveSensorEntry {
+  /**
+   * Its name.
+   */
+  sensor: string;
+  /**
+   * The sensor of the machine file that it is.
+   */
+  input: string;
+  /**
+   * Its temperature; null if it cannot be used.
+   */
+  celsius: number | null;
+  /**
+   * The age of its last good sample.
+   */
+  age_s: number | null;
+  /**
+   * Why it cannot be used.
+   */
+  fault: string | null;
+  /**
+   * The sensor that stands in for it.
+   */
+  instead: string | null;
 }
 /**
  * A test piece that was cut and measured virtually.
