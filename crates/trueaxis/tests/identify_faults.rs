@@ -419,7 +419,7 @@ channel has the opposite sign; *swapped*: x and y are exchanged (no fault where 
 
 /// Writes docs/identify-faults.md.
 #[test]
-#[ignore = "an hour: scripts/identify-faults"]
+#[ignore = "a quarter of an hour: scripts/identify-faults"]
 fn write_the_table_of_faults() {
     let text = format!(
         "{HEAD}## Good campaigns\n\n{}\n## Faulty campaigns\n\n{}",
