@@ -33,20 +33,6 @@ pub struct Gross {
     pub limit: f64,
 }
 
-/// How many points stand at the place of an earlier one.
-///
-/// ```
-/// use trueaxis_geometry::Vec3;
-/// assert_eq!(trueaxis_form::checks::repeated(&[Vec3::x(), Vec3::y(), Vec3::x()]), 1);
-/// ```
-pub fn repeated(points_mm: &[Vec3]) -> usize {
-    let mut sorted: Vec<[f64; 3]> = points_mm.iter().map(|p| (*p).into()).collect();
-    sorted.sort_by(|a, b| {
-        a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(a[2].total_cmp(&b[2]))
-    });
-    sorted.windows(2).filter(|w| w[0] == w[1]).count()
-}
-
 /// How much of the element the points cover.
 pub fn cover(fitted: &Fitted, points_mm: &[Vec3]) -> Cover {
     let shape = fitted.shape();

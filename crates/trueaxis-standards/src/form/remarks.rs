@@ -1,7 +1,7 @@
 //! What speaks against points and against a result.
 
 use super::{FormEvaluation, FormRequest, place};
-use trueaxis_form::checks::{Cover, SMALL_ARC_RAD, gross, repeated};
+use trueaxis_form::checks::{Cover, SMALL_ARC_RAD, gross};
 use trueaxis_form::{Criterion, Element, Error, Fitted, Proof, Source};
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{Diagnostics, Place};
@@ -37,13 +37,6 @@ pub(super) fn of_points(
     cover: Cover,
     problems: &mut Diagnostics,
 ) {
-    let whole = || Place::whole(request.file);
-    let again = repeated(points_mm);
-    if again > 0 {
-        let message = format!("{again} points stand at the place of an earlier one");
-        let hint = "they count twice in least squares and make U too small; keep one of each";
-        problems.warn("form-repeated-points", whole(), message, hint);
-    }
     covered(request, fitted, cover, problems);
     let size = points_mm.iter().map(|p| (p - fitted.shape().point_mm).norm()).fold(0.0, f64::max);
     let form = fitted.references[0].form_mm();
@@ -52,7 +45,7 @@ pub(super) fn of_points(
         let message =
             format!("the points deviate by {form:.3} mm from a {key}, their size is {size:.3} mm");
         let hint = "is that the element, and are the units of all columns right?";
-        problems.warn("form-wrong-element", whole(), message, hint);
+        problems.warn("form-wrong-element", Place::whole(request.file), message, hint);
     }
     if let Some(found) = gross(fitted, points_mm) {
         let line = lines.get(found.index).copied().unwrap_or(0);
