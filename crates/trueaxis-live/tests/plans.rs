@@ -71,6 +71,18 @@ fn sensors_fit_the_machine_file() {
     refused("of = \"comprehensive\"", machine, "live-unused-sensor");
 }
 
+/// What could not be read is not called missing besides.
+#[test]
+fn one_fault_has_one_message() {
+    let sensor = ("rate_k_per_min = 5", "rate_k_per_min = nan");
+    assert_eq!(codes(&[sensor]), ["not-finite"; 3]);
+    let log = ("torque-arm-hall.csv", "none.csv");
+    assert!(codes(&[log]).iter().all(|code| code == "unreadable-file"));
+    let axis = ("limit = \"600 um\"", "");
+    assert_eq!(codes(&[axis]), ["live-no-limit"; 2]);
+    assert_eq!(codes(&[("[axis.X]", "[other.X]"), ("[axis.Y]", "[other.Y]")])[0], "live-no-axis");
+}
+
 #[test]
 fn controls_are_whole() {
     refused("address = \"mock\"", "address = \"mill\"", "bad-address");

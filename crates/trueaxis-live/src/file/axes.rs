@@ -44,8 +44,11 @@ const LIMITS: [(&str, &str, &str); 5] = [
 ];
 
 pub(super) fn read_axes(root: &Section<'_>, machine: &Machine) -> Vec<AxisPlan> {
+    // An axis that could not be read is not missing: its own fault is named.
+    let mut is_stated = false;
     let found = root.section("axis", |section| {
         let mut axes = Vec::new();
+        is_stated = !section.entries().is_empty();
         for (letter, place, item) in section.entries() {
             let Some(axis) = axis_index(machine, letter) else {
                 let message = format!("the machine has no axis `{letter}`");
@@ -59,7 +62,7 @@ pub(super) fn read_axes(root: &Section<'_>, machine: &Machine) -> Vec<AxisPlan> 
         axes
     });
     let axes = found.unwrap_or_default();
-    if axes.is_empty() {
+    if axes.is_empty() && !is_stated {
         let hint = "[axis.X] with increment, limit, slew, step, jump and dead_band for each axis that is corrected";
         root.error("live-no-axis", "no axis is corrected".to_owned(), hint);
     }

@@ -65,10 +65,14 @@ pub(super) fn read_sensors(
             check_input(section, &place, machine, (&sensor, of));
             sensors.push(SensorPlan { settings: sensor_role(sensor.settings, machine), ..sensor });
         }
+        // A sensor that could not be read is not missing: its own fault is named.
+        if !sound {
+            return None;
+        }
         resolve_instead(section, &mut sensors, &instead);
         check_twice(section, &sensors);
         check_needed(section, &sensors, &needed);
-        sound.then_some(sensors)
+        Some(sensors)
     });
     let Some(sensors) = found else {
         let hint =
