@@ -398,9 +398,12 @@ impl Answer for LiveExpectAnswer {
 
     fn report(&self) -> Report<'_> {
         let shown = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |v| fixed(v, 1));
+        let in_unit = |axis: &ExpectedAxis| {
+            format!("{}, {}", axis.axis, if axis.unit == "um" { "µm" } else { "µrad" })
+        };
         let axes = self.0.axes.iter().map(|axis| {
             [
-                format!("{}, {}", axis.axis, if axis.unit == "um" { "µm" } else { "µrad" }),
+                in_unit(axis),
                 fixed(axis.before, 1),
                 fixed(axis.after, 1),
                 fixed(axis.by_age, 1),
@@ -422,7 +425,7 @@ impl Answer for LiveExpectAnswer {
             let fits = axis.needed <= axis.limit
                 && axis.needed_per_s.is_none_or(|needed| needed <= axis.slew_per_s);
             [
-                axis.axis.clone(),
+                in_unit(axis),
                 fixed(axis.needed, 1),
                 fixed(axis.limit, 1),
                 shown(axis.needed_per_s),
@@ -430,15 +433,22 @@ impl Answer for LiveExpectAnswer {
                 if fits { "" } else { "too small" }.to_owned(),
             ]
         });
-        let needs = ["axis", "offset needed", "limit", "per second, at full speed", "slew", ""];
+        let needs = [
+            "axis",
+            "offset needed",
+            "limit",
+            "needed per second, at full speed",
+            "slew per second",
+            "",
+        ];
         let others = format!(
-            "the lever does not correct {} µm of the tip (squareness, straightness, angles)",
+            "not corrected by offsets of the axes: {} µm of the tip (squareness, straightness, angles)",
             fixed(self.0.other_tip_um, 1)
         );
         let turned = self
             .0
             .tool_axis_urad
-            .map(|urad| format!("nor {} µrad of the tool axis", fixed(urad, 1)));
+            .map(|urad| format!("nor: {} µrad of the tool axis", fixed(urad, 1)));
         let report =
             Report::new(&self.0.name).line(format!("on the day of {}", self.0.log)).line(others);
         let report = turned.into_iter().fold(report, |report, line| report.line(line));
