@@ -424,8 +424,12 @@ fn a_move_that_is_longer_than_any_machine_is_refused_with_its_block() {
             .collect();
         assert_eq!((ran.status, errors), (2, vec![("impossible-value".into(), Some(4))]), "{far}");
     }
-    // 62 m are beyond the travel; what that means is shown.
+    // 62 m are beyond the travel; what that means is shown, and that no error is known there.
     let program = folder.file("far.nc", format!("{begin}G1 X62091 F600\nM30\n"));
     let ran = run(&["simulate", MILL, &program, "--control", "fanuc"], &[]);
     assert!(ran.status == 1 && ran.out.contains("over-travel"), "{}{}", ran.out, ran.err);
+    assert!(ran.err.contains("far.nc:4:1: warning[deviation-outside-travel]"), "{}", ran.err);
+    let program = folder.file("near.nc", format!("{begin}G1 X91 F600\nM30\n"));
+    let ran = run(&["simulate", MILL, &program, "--control", "fanuc"], &[]);
+    assert!(!ran.err.contains("outside-travel"), "{}", ran.err);
 }

@@ -3,12 +3,13 @@
 use super::collide::{BodyModel, load_models};
 use super::program::program_of;
 use super::{
-    AxisWatch, Batch, Collisions, Drift, IssueList, Observer, Options, Run, SetUp, Summary,
-    read_program, read_setup, simulate,
+    AxisWatch, Batch, Collisions, Drift, Issue, IssueKind, IssueList, Observer, Options, Run,
+    SetUp, Summary, read_program, read_setup, simulate,
 };
+use crate::report::issue_text;
 use crate::tool_check;
 use std::path::{Path, PathBuf};
-use trueaxis_input::{Diagnostics, Files};
+use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_machine::Machine;
 use trueaxis_nc::{Control, Program};
 
@@ -135,7 +136,31 @@ impl Job {
         }
         let logs = [Some(watch.log), collisions.map(|c| c.log)];
         let issues = IssueList::of(logs.into_iter().flatten());
+        self.warn_outside_travel(&summary, &issues, &mut run);
         Findings { run, summary, issues, drift }
+    }
+
+    /// The errors of a machine are known within its travel only: a deviation beyond it is a formula carried on.
+    fn warn_outside_travel(&self, summary: &Summary, issues: &IssueList, run: &mut Run) {
+        let worst = &summary.feed_tip;
+        let is_beyond = |issue: &&Issue| {
+            matches!(issue.kind, IssueKind::OverTravel { .. })
+                && (issue.from_s..=issue.to_s).contains(&worst.time_s)
+        };
+        let Some(issue) = issues.list.iter().find(is_beyond).filter(|_| worst.value > 0.0) else {
+            return;
+        };
+        let programs = &run.programs;
+        let file = programs.get(worst.origin.program as usize).map_or(self.program.file(), |f| f);
+        let place = Place { file: file.to_owned(), line: worst.origin.line as usize, column: 1 };
+        let message = format!(
+            "the largest deviation of the tip, {:.1} µm, stands outside the travel ({}): the errors of the \
+             machine are not known there",
+            worst.value * 1e3,
+            issue_text(&self.machine, issue)
+        );
+        let hint = "correct the work offset, the tool length or the program, then read the deviations again";
+        run.problems.warn("deviation-outside-travel", place, message, hint);
     }
 }
 
