@@ -232,3 +232,24 @@ fn a_file_name_of_a_megabyte_is_cut_in_messages() {
     let longest = places.map(|d| d["file"].as_str().unwrap().chars().count()).max();
     assert_eq!(longest, Some(2000));
 }
+
+/// A point of a circle that has lost its decimal point, where no single value is impossible: the answer says it.
+#[test]
+fn an_answer_of_metres_says_so() {
+    let folder = Folder::new("plausible-absurd");
+    let example = root().join("examples/07_verify");
+    let readings = fs::read_to_string(example.join("circle-xy.csv")).unwrap();
+    let conditions = example.join("circle-xy.toml").display().to_string();
+    let of = |text: String| {
+        let path = folder.file("circle.csv", text);
+        trueaxis(&["evaluate", "iso230-4", &path, "--conditions", &conditions, "--format", "json"])
+    };
+    let absurd = |ran: &Ran| {
+        let all = diagnostics(ran);
+        all.into_iter().filter(|d| d.1 == "absurd-result").map(|d| d.2).collect::<Vec<_>>()
+    };
+    assert!(absurd(&of(readings.clone())).is_empty());
+    let ran = of(readings.replacen("112.34353", "112343.53", 1));
+    let said = absurd(&ran);
+    assert!(ran.status != 2 && said.len() == 1 && said[0].contains("_um"), "{said:?}");
+}

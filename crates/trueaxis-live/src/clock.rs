@@ -61,3 +61,8 @@ impl Clock for VirtualClock {
 pub fn date_s() -> u64 {
     SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs())
 }
+
+/// The date with its fractions, seconds since 1970 (UTC): for the age of what was dated by another clock.
+pub fn date_now_s() -> f64 {
+    SystemTime::now().duration_since(UNIX_EPOCH).map_or(0.0, |since| since.as_secs_f64())
+}

@@ -4,6 +4,7 @@
 //! least increments, one for each live axis, in the order of the plan; a control that takes another unit (LinuxCNC: mm,
 //! SD43900: mm) converts inside.
 
+use crate::pose::Frame;
 use serde::{Deserialize, Serialize};
 
 /// What a control says of itself; a plan is bound to it.
@@ -71,8 +72,20 @@ pub struct Seen {
     pub inhibited: bool,
     /// The ladder has let the offsets go, because nothing came from here.
     pub tripped: bool,
+    /// The control has taken the offsets to zero itself and goes on from there: its kinematics change, its watchdog has tripped.
+    #[serde(default)]
+    pub released: bool,
     /// The feed along the path.
     pub feed_mm_per_min: f64,
+    /// What its offsets are added to.
+    #[serde(default)]
+    pub frame: Frame,
+    /// The length of the tool that the control counts with; none where it does not say.
+    #[serde(default)]
+    pub tool_length_mm: Option<f64>,
+    /// Tip of the tool in X Y Z of the control, while all axes stand; none where it does not say.
+    #[serde(default)]
+    pub standing_tip_mm: Option<[f64; 3]>,
 }
 
 /// What is sent in one cycle.
@@ -138,4 +151,9 @@ pub trait Control {
     /// # Errors
     /// [`LinkFault`]: it is then not known which of the axes have their new offset.
     fn write(&mut self, sent: &Sent, now_s: f64) -> Result<(), LinkFault>;
+
+    /// Whether its offsets end with it, so that no journal needs to know them: nothing is kept before each write then.
+    fn is_volatile(&self) -> bool {
+        false
+    }
 }

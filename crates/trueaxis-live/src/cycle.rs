@@ -5,6 +5,7 @@ use crate::control::{LinkFault, Seen};
 use crate::file::Plan;
 use crate::governor::{Governor, Inputs, Order, Owned, Reason};
 use crate::model::{LiveAxis, Model, Target};
+use crate::pose::Frame;
 use crate::sensor::{Judged, Sample, Watch};
 use serde::{Deserialize, Serialize};
 use trueaxis::machine::axis::Command;
@@ -59,9 +60,15 @@ impl Correction {
             sign: axis.sign,
         };
         let axes = plan.axes.iter().map(live).collect();
+        let model = Model::new(plan.machine.clone(), plan.of, plan.part, axes);
+        let model = match plan.control.takes_pose() {
+            // A plan of a machine that has no such form is refused when it is read.
+            true => model.clone().with_pose().unwrap_or(model),
+            false => model,
+        };
         Self {
             watch: Watch::new(plan.sensors.iter().map(|s| s.settings.clone()).collect()),
-            model: Model::new(plan.machine.clone(), plan.of, plan.part, axes),
+            model,
             governor: Governor::new(plan.settings.clone(), owned),
             last_s: None,
         }
@@ -92,8 +99,13 @@ impl Correction {
         }
         input.samples.iter().for_each(|sample| self.watch.take(sample, now_s));
         let sensors = self.watch.judged(now_s);
-        let programmed = input.seen.as_ref().ok().map(|seen| self.programmed(seen));
-        let target = self.target(&sensors, programmed.as_ref());
+        let seen = input.seen.as_ref().ok();
+        let tool = seen.and_then(|seen| seen.tool_length_mm).map(|mm| self.model.set_tool(mm));
+        let programmed = seen.map(|seen| self.programmed(seen));
+        let known =
+            tool.unwrap_or(Ok(())).and_then(|()| seen.map_or(Ok(()), |s| self.check_tip(s)));
+        let frame = seen.map_or_else(Default::default, |seen| seen.frame);
+        let target = known.and_then(|()| self.target(&sensors, (frame, programmed.as_ref())));
         let lost = |fault: &LinkFault| Reason::LinkLost { what: fault.to_string() };
         let order = self.governor.step(
             dt_s,
@@ -110,19 +122,19 @@ impl Correction {
 
     /// The position of the program: that of the machine without the offset that acts.
     fn programmed(&self, seen: &Seen) -> Command {
-        let mut command = Command::default();
-        command.iter_mut().zip(&seen.positions).for_each(|(to, from)| *to = *from);
         let acting = seen.acting.as_ref().unwrap_or(&seen.offsets);
-        for (axis, offset) in self.model.axes().iter().zip(acting) {
-            command[axis.axis] -= axis.sign * f64::from(*offset) * axis.increment;
-        }
-        command
+        self.model.programmed(seen.frame, &positions(seen), acting)
+    }
+
+    fn check_tip(&mut self, seen: &Seen) -> Result<(), Reason> {
+        let Some(tip_mm) = seen.standing_tip_mm else { return Ok(()) };
+        self.model.check_tip(tip_mm, &positions(seen))
     }
 
     fn target(
         &mut self,
         sensors: &[Judged],
-        programmed: Option<&Command>,
+        (frame, programmed): (Frame, Option<&Command>),
     ) -> Result<Target, Reason> {
         let settings = self.watch.settings();
         let mut readings = Vec::with_capacity(sensors.len());
@@ -141,6 +153,12 @@ impl Correction {
         self.model.set_readings(&readings)?;
         let programmed =
             programmed.ok_or_else(|| Reason::Model { what: "no position".to_owned() })?;
-        self.model.target(programmed)
+        self.model.target(frame, programmed)
     }
+}
+
+fn positions(seen: &Seen) -> Command {
+    let mut command = Command::default();
+    command.iter_mut().zip(&seen.positions).for_each(|(to, from)| *to = *from);
+    command
 }

@@ -150,7 +150,7 @@ impl Question for ExpectLive {
 fn column(sensor: &crate::file::SensorPlan) -> &str {
     match &sensor.source {
         Source::Log { column, .. } => column,
-        Source::Constant { .. } => &sensor.settings.input,
+        _ => &sensor.settings.input,
     }
 }
 

@@ -3,9 +3,10 @@
 mod axes;
 mod control;
 mod sensors;
+mod sources;
 
 pub use axes::{AxisPlan, Commissioned};
-pub use control::{Bound, ControlPlan};
+pub use control::{Bound, ControlPlan, FanucPlan, LinuxCncPlan};
 pub use sensors::{SensorPlan, Source};
 
 use crate::control::Mode;
@@ -87,7 +88,9 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Plan> {
     check_of(root, &machine, of, without_part);
     let axes = axes::read_axes(root, &machine);
     let control = control::read_control(root, &machine, &axes);
-    let sensors = sensors::read_sensors(root, folder, &machine, (&axes, of));
+    check_pose(root, &machine, of, control.as_ref());
+    let pose = control.as_ref().is_some_and(ControlPlan::takes_pose);
+    let sensors = sensors::read_sensors(root, folder, &machine, (&axes, of, pose));
     let (period_s, window_s) = root.section("cycle", read_cycle).unwrap_or((0.05, 0.5));
     let policy = root.section("policy", read_policy).unwrap_or_default();
     let journal = root.section("journal", |s| s.text("folder").map(|text| folder.join(text)));
@@ -165,6 +168,23 @@ fn check_of(root: &Section<'_>, machine: &Machine, of: Compensation, without_par
     if of == Compensation::Machine && machine.heat().workpiece.is_some() && !without_part {
         let message = "the correction of the machine alone makes the part worse: its scales then no longer grow with the workpiece".to_owned();
         let hint = "[correction] of = \"comprehensive\" with a sensor on the workpiece; for a laser without a part: without_part = true";
+        root.error("live-machine-only", message, hint);
+    }
+}
+
+/// The pose is that of the tool in the part: there is no form of it for the machine alone.
+fn check_pose(
+    root: &Section<'_>,
+    machine: &Machine,
+    of: Compensation,
+    control: Option<&ControlPlan>,
+) {
+    let alone = of == Compensation::Machine && machine.heat().workpiece.is_some();
+    if alone && control.is_some_and(ControlPlan::takes_pose) {
+        let message =
+            "this control takes the pose of the tool in the workpiece: the machine alone has none"
+                .to_owned();
+        let hint = "[correction] of = \"comprehensive\", or a machine file without [workpiece]";
         root.error("live-machine-only", message, hint);
     }
 }

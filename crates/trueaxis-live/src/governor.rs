@@ -256,6 +256,10 @@ impl Governor {
             _ => self.is_confirmed = false,
         }
         let late = self.under_way_s.is_some_and(|s| s > self.settings.window_s);
+        if seen.released && self.settings.ladder_ramps {
+            self.axes.iter_mut().zip(&seen.offsets).for_each(|(axis, held)| axis.release(*held));
+            self.under_way_s = None;
+        }
         let ramped = (self.was_lost || seen.tripped) && self.settings.ladder_ramps;
         let known = |(axis, held): (&AxisMemory, &i32)| {
             *held == axis.whole()
@@ -345,6 +349,9 @@ impl Governor {
         }
         if seen.tripped {
             return Some(Reason::Watchdog);
+        }
+        if seen.released {
+            return Some(Reason::Released);
         }
         if seen.inhibited {
             return Some(Reason::Inhibited);

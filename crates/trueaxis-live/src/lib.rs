@@ -6,10 +6,10 @@
 //!     control ──read───> pose, state ──┘                                  └──> journal, record
 //! ```
 //!
-//! - [`focas`], [`mock`]: a FANUC control, and one that is not there;
+//! - [`focas`], [`mock`]: a FANUC control, and one that is not there; [`linuxcnc`]: LinuxCNC by its HAL;
 //! - [`control`], [`sensor`], [`clock`]: what a control, a sensor and a clock are;
 //! - [`governor`]: what may be written, a function of time and inputs;
-//! - [`model`]: the target, from `compensate values`.
+//! - [`model`]: the target, from `compensate values`; [`pose`]: of tip and tool axis together.
 //!
 //! The only place of sockets to machines and of a clock. It computes no error: that is `trueaxis`.
 
@@ -20,8 +20,11 @@ pub mod expect;
 pub mod file;
 pub mod focas;
 pub mod governor;
+#[allow(unsafe_code, reason = "the library of LinuxCNC is C")]
+pub mod linuxcnc;
 pub mod mock;
 pub mod model;
+pub mod pose;
 pub mod run;
 pub mod sensor;
 pub mod start;

@@ -4,10 +4,14 @@
 //!     readings ──Machine::at──> machine of now ──error_split──> δ(q) · d(q) ──− , / increment──> target
 //! ```
 //!
-//! Nothing is calculated here that `trueaxis compensate values` calculates in another way: docs/model.md eq. 99.
+//! Nothing is calculated here that `trueaxis compensate values` calculates in another way: docs/model.md eq. 99. A control that
+//! takes tip and angles gets the command of `compensate program` instead, as an offset: see [`crate::pose`].
 
 use crate::governor::Reason;
+use crate::linuxcnc::KinematicsCheck;
+use crate::pose::{Frame, PoseCorrection, World, turns};
 use trueaxis::compensate::values::{error_of, error_split};
+use trueaxis::geometry::Vec3;
 use trueaxis::input::{Diagnostics, Severity};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{Command, Travel};
@@ -41,7 +45,19 @@ pub struct Model {
     of: Compensation,
     part: Part,
     axes: Vec<LiveAxis>,
+    pose: Option<Pose>,
     warm: Option<Warm>,
+}
+
+/// What belongs to the correction of tip and tool axis together.
+#[derive(Debug, Clone)]
+struct Pose {
+    world: World,
+    /// Without temperatures: what tables in the control have corrected.
+    cold: PoseCorrection,
+    check: KinematicsCheck,
+    /// Whether the rotary axes take a part.
+    turns: bool,
 }
 
 /// The machine at certain readings.
@@ -49,6 +65,7 @@ pub struct Model {
 struct Warm {
     readings: Vec<(String, f64)>,
     machine: Machine,
+    pose: Option<PoseCorrection>,
 }
 
 /// Where the offsets shall go.
@@ -63,7 +80,77 @@ pub struct Target {
 impl Model {
     /// Of a machine whose active compensation is subtracted already.
     pub fn new(machine: Machine, of: Compensation, part: Part, axes: Vec<LiveAxis>) -> Self {
-        Self { machine, of, part, axes, warm: None }
+        Self { machine, of, part, axes, pose: None, warm: None }
+    }
+
+    /// The same for a control that takes offsets of tip and angles: all axes are corrected together.
+    ///
+    /// # Errors
+    /// A machine without three linear axes square to each other.
+    pub fn with_pose(mut self) -> Result<Self, String> {
+        let turns = turns(&self.machine, |i| self.axes.iter().any(|live| live.axis == i));
+        let (world, cold) = (World::of(&self.machine)?, PoseCorrection::of(&self.machine, turns)?);
+        self.pose = Some(Pose { world, cold, check: KinematicsCheck::default(), turns });
+        Ok(self)
+    }
+
+    /// Takes the length of the tool that the control counts with, mm.
+    ///
+    /// # Errors
+    /// [`Reason::Model`].
+    pub fn set_tool(&mut self, length_mm: f64) -> Result<(), Reason> {
+        let tip = self.machine.tip_mm();
+        if tip.z == -length_mm {
+            return Ok(());
+        }
+        if !(0.0..1e4).contains(&length_mm) {
+            let what = format!("a tool of {length_mm} mm is none");
+            return Err(Reason::Model { what });
+        }
+        self.machine = self.machine.clone().with_tip(Vec3::new(tip.x, tip.y, -length_mm));
+        if let Some(pose) = &mut self.pose {
+            let made = World::of(&self.machine).and_then(|world| {
+                Ok((
+                    world,
+                    PoseCorrection::of(&self.machine, pose.turns)?
+                        .with_history_of(Some(&pose.cold)),
+                ))
+            });
+            (pose.world, pose.cold) = made.map_err(|what| Reason::Model { what })?;
+        }
+        self.warm = None;
+        Ok(())
+    }
+
+    /// Compares the tip of the control with that of the machine file, at a standing pose in the frame of the workpiece.
+    ///
+    /// # Errors
+    /// [`Reason::Model`] where they part: one of them describes another machine.
+    pub fn check_tip(&mut self, control_mm: [f64; 3], positions: &Command) -> Result<(), Reason> {
+        let Some(pose) = &mut self.pose else { return Ok(()) };
+        let nominal = pose.world.tip_xyz(positions);
+        match pose.check.apart(&control_mm.into(), &nominal) {
+            None => Ok(()),
+            Some(apart_mm) => {
+                let what = format!(
+                    "the control moves the tip by {:.1} um otherwise than the machine file: pivots, senses or tool differ",
+                    apart_mm * 1e3
+                );
+                Err(Reason::Model { what })
+            }
+        }
+    }
+
+    /// The command of the program from positions with an offset of each live axis, in increments.
+    pub fn programmed(&self, frame: Frame, positions: &Command, acting: &[i32]) -> Command {
+        let mut offset = Command::default();
+        for (axis, counted) in self.axes.iter().zip(acting) {
+            offset[axis.axis] = axis.sign * f64::from(*counted) * axis.increment;
+        }
+        match &self.pose {
+            Some(pose) => pose.world.without(frame, positions, &offset),
+            None => std::array::from_fn(|i| positions[i] - offset[i]),
+        }
     }
 
     /// The machine at no particular temperature.
@@ -90,23 +177,53 @@ impl Model {
         }
         let machine = at(&self.machine, readings).map_err(|what| Reason::Model { what })?;
         let readings = readings.iter().map(|(name, celsius)| ((*name).to_owned(), *celsius));
-        self.warm = Some(Warm { readings: readings.collect(), machine });
+        let before = self.warm.take().and_then(|warm| warm.pose);
+        let pose = self.pose.as_ref().map(|pose| {
+            let history = before.as_ref().or(Some(&pose.cold));
+            PoseCorrection::of(&machine, pose.turns).map(|made| made.with_history_of(history))
+        });
+        let pose = pose.transpose().map_err(|what| Reason::Model { what })?;
+        self.warm = Some(Warm { readings: readings.collect(), machine, pose });
         Ok(())
     }
 
-    /// The target at a programmed position.
+    /// The target at a programmed position, as an offset in a frame.
     ///
     /// # Errors
     /// [`Reason::Model`].
-    pub fn target(&self, programmed: &Command) -> Result<Target, Reason> {
+    pub fn target(&mut self, frame: Frame, programmed: &Command) -> Result<Target, Reason> {
+        let (command, is_clamped) = clamped(&self.machine, programmed);
+        let by = self.pose_offset(frame, (programmed, &command))?;
         let fault = |what: &str| Reason::Model { what: what.to_owned() };
         let warm = self.warm.as_ref().ok_or_else(|| fault("no temperatures yet"))?;
-        let (command, is_clamped) = clamped(&self.machine, programmed);
         let offsets = self.axes.iter().map(|live| {
-            let error = self.error(&warm.machine, live.axis, &command)?;
-            Ok(-error * live.sign / live.increment)
+            let wanted = match &by {
+                Some(by) => by[live.axis],
+                None => -self.error(&warm.machine, live.axis, &command)?,
+            };
+            Ok(wanted * live.sign / live.increment)
         });
         Ok(Target { offsets: offsets.collect::<Result<_, _>>()?, is_clamped })
+    }
+
+    /// The offset of every axis where tip and tool axis are corrected together. Unit: mm or rad.
+    fn pose_offset(
+        &mut self,
+        frame: Frame,
+        (programmed, inside): (&Command, &Command),
+    ) -> Result<Option<Command>, Reason> {
+        let hot = self.warm.as_mut().and_then(|warm| warm.pose.as_mut());
+        let (Some(pose), Some(hot)) = (&mut self.pose, hot) else { return Ok(None) };
+        hot.follow(programmed);
+        pose.cold.follow(programmed);
+        let of = |what| Reason::Model { what };
+        let mut by = pose.world.offset(frame, inside, &hot.corrected(inside).map_err(of)?);
+        if self.part == Part::Thermal {
+            let cold = pose.cold.corrected(inside).map_err(of)?;
+            let held = pose.world.offset(frame, inside, &cold);
+            by.iter_mut().zip(held).for_each(|(by, held)| *by -= held);
+        }
+        Ok(Some(by))
     }
 
     /// The error that is compensated, of a machine at its temperatures. Unit: mm or rad.

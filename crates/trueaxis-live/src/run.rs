@@ -59,13 +59,13 @@ impl<'a> Run<'a> {
     pub fn new(
         plan: &Plan,
         owned: Option<Owned>,
-        control: impl Control + 'a,
+        control: Box<dyn Control + 'a>,
         sensors: Vec<Box<dyn Sensor + 'a>>,
         store: impl Store + 'a,
     ) -> Self {
         Self {
             correction: Correction::new(plan, owned),
-            control: Box::new(control),
+            control,
             sensors,
             store: Box::new(store),
             beat: 0,
@@ -152,7 +152,8 @@ impl<'a> Run<'a> {
             return;
         }
         let mut offsets = output.order.write.clone();
-        if offsets.is_some() && self.store.own(&self.correction.owned()).is_err() {
+        let keeps = offsets.is_some() && !self.control.is_volatile();
+        if keeps && self.store.own(&self.correction.owned()).is_err() {
             // Not kept, so not written: the governor reads what stands there and takes it.
             self.journal_fails = true;
             let reason = "the journal took no entry".to_owned();

@@ -4,7 +4,10 @@
 //! them in one place: freshness by the time of the sample itself, range, rate, stuck values. Nothing that is no plausible
 //! temperature gets further.
 
+mod inbox;
 mod log;
+pub mod modbus;
+pub mod mqtt;
 mod watch;
 
 pub use log::LogSensor;

@@ -1,14 +1,15 @@
 //! A run as the command starts it: mock or real control, journal on the disk, real clock, an end by the ramp.
 
 use crate::clock::{Clock, RealClock};
-use crate::control::Identity;
+use crate::control::{Control, Identity};
 use crate::cycle::{Correction, CycleInput};
-use crate::file::{Plan, read_plan};
+use crate::file::{ControlPlan, Plan, read_plan};
 use crate::focas::TcpWire;
+use crate::governor::Owned;
 use crate::governor::{Order, State};
 use crate::mock::MockServer;
 use crate::run::{Cycle, Run, Wish};
-use crate::start::{connect, mock_of, owner, sensors_of};
+use crate::start::{connect, connect_linuxcnc, mock_of, owner, sensors_of};
 use crate::status::{LiveState, folder_of, live_state, status_json};
 use crate::store::{DiskStore, StoreFault};
 use std::io::{BufRead, BufReader};
@@ -70,11 +71,8 @@ pub fn run_session(
         Ok(mock) => mock,
         Err(message) => return Err(refused(&plan, "live-no-mock", &message, problems)),
     };
-    let own = mock.as_ref().map(|server| server.address().to_string());
-    let address = plan.control.address.clone().or(own).unwrap_or_default();
-    let wire = TcpWire::new(&address, plan.control.timeout_s);
-    let (control, identity) = match connect(&plan, wire, clock.now_s()) {
-        Ok(connected) => connected,
+    let Opened { control, identity, held } = match open(&plan, mock.as_ref(), &clock) {
+        Ok(opened) => opened,
         Err(found) => {
             problems.append(found);
             return Err(problems);
@@ -85,8 +83,8 @@ pub fn run_session(
         Ok(opened) => opened,
         Err(fault) => return Err(unusable(&folder, &fault, problems)),
     };
-    // A mock of its own begins with nothing in it.
-    let owned = owned.filter(|_| mock.is_none());
+    // A mock of its own begins with nothing in it; what only we can have written is ours.
+    let owned = held.or(owned).filter(|_| mock.is_none());
     if let Some(path) = &session.record
         && let Err(error) = store.record_into(path)
     {
@@ -105,6 +103,32 @@ pub fn run_session(
     let is_clean =
         session.dry || (last.state == State::Off && last.axes.iter().all(|axis| axis.own == 0.0));
     Ok((Ended { plan, last, is_clean }, problems))
+}
+
+/// A control that was opened and compared with the plan.
+struct Opened {
+    control: Box<dyn Control>,
+    identity: Identity,
+    /// What it holds of us, where the control itself says so.
+    held: Option<Owned>,
+}
+
+fn open(plan: &Plan, mock: Option<&MockServer>, clock: &RealClock) -> Result<Opened, Diagnostics> {
+    match &plan.control {
+        ControlPlan::Fanuc(fanuc) => {
+            let own = mock.map(|server| server.address().to_string());
+            let address = fanuc.address.clone().or(own).unwrap_or_default();
+            let wire = TcpWire::new(&address, fanuc.timeout_s);
+            let (control, identity) = connect((plan, fanuc), wire, clock.now_s())?;
+            Ok(Opened { control: Box::new(control), identity, held: None })
+        }
+        ControlPlan::LinuxCnc(_) => {
+            let (control, identity) = connect_linuxcnc(plan)?;
+            let last = control.held().to_vec();
+            let held = Owned { base: vec![0; last.len()], before: last.clone(), last };
+            Ok(Opened { control: Box::new(control), identity, held: Some(held) })
+        }
+    }
 }
 
 /// The mock of a plan, on this computer.

@@ -1,8 +1,9 @@
 //! From a plan to a run: the control is opened and compared with the plan before anything is written.
 
 use crate::control::{Control, Identity, LinkFault};
-use crate::file::{Plan, Source};
+use crate::file::{FanucPlan, Plan, Source};
 use crate::focas::{Fanuc, FanucSettings, Wire};
+use crate::linuxcnc::{HalPins, Joint, LinuxCnc, LinuxCncSettings, LiveJoint};
 use crate::mock::{FanucMock, MockPlan};
 use crate::sensor::{LogSensor, Sample, Sensor, Sent};
 use crate::store::Owner;
@@ -11,16 +12,17 @@ use trueaxis::machine::axis::AxisKind;
 
 /// The mock of a plan whose address is `mock`.
 pub fn mock_of(plan: &Plan) -> Option<FanucMock> {
-    let (path, ladder) = plan.control.mock.clone()?;
-    let areas = plan.control.pmc.unwrap_or(UNUSED);
+    let fanuc = plan.control.fanuc()?;
+    let (path, ladder) = fanuc.mock.clone()?;
+    let areas = fanuc.pmc.unwrap_or(UNUSED);
     Some(FanucMock::new(MockPlan {
         axes: plan.machine.axes().iter().map(|axis| axis.name.to_string()).collect(),
         live: plan.axes.iter().map(|axis| axis.axis).collect(),
         decimals: decimals(plan.axes.first().map_or(1e-3, |axis| axis.increment)).unwrap_or(3),
         path,
         areas,
-        referenced: plan.control.referenced,
-        inhibit: plan.control.inhibit,
+        referenced: fanuc.referenced,
+        inhibit: fanuc.inhibit,
         ladder,
     }))
 }
@@ -50,12 +52,12 @@ fn decimals(increment: f64) -> Option<u16> {
 /// # Errors
 /// What differs, each with its place and its cure.
 pub fn connect<W: Wire>(
-    plan: &Plan,
+    (plan, fanuc): (&Plan, &FanucPlan),
     wire: W,
     now_s: f64,
 ) -> Result<(Fanuc<W>, Identity), Diagnostics> {
-    let mut control =
-        Fanuc::new(wire, settings(plan, (1..).take(plan.machine.axes().len()).collect()));
+    let all = (1..).take(plan.machine.axes().len()).collect();
+    let mut control = Fanuc::new(wire, settings(plan, fanuc, all));
     let place = Place::whole(&plan.path.display().to_string());
     let mut problems = Diagnostics::new();
     let identity = match control.identity(now_s) {
@@ -70,11 +72,46 @@ pub fn connect<W: Wire>(
             return Err(problems);
         }
     };
-    let numbers = compare(plan, &identity, &mut problems);
+    let numbers = compare(plan, fanuc, &identity, &mut problems);
     if problems.has_errors() {
         return Err(problems);
     }
-    Ok((control.with(settings(plan, numbers)), identity))
+    Ok((control.with(settings(plan, fanuc, numbers)), identity))
+}
+
+/// Which joints of LinuxCNC belong to a plan.
+pub fn linuxcnc_settings(plan: &Plan) -> LinuxCncSettings {
+    let joint = |axis: &trueaxis::machine::axis::Axis| Joint {
+        name: axis.name.to_string(),
+        is_rotary: axis.kind == AxisKind::Rotary,
+    };
+    let live =
+        |axis: &crate::file::AxisPlan| LiveJoint { joint: axis.axis, increment: axis.increment };
+    LinuxCncSettings {
+        joints: plan.machine.axes().iter().map(joint).collect(),
+        live: plan.axes.iter().map(live).collect(),
+        timeout_s: plan.control.timeout_s(),
+    }
+}
+
+/// Opens LinuxCNC on this computer; nothing is written but what it holds already.
+///
+/// # Errors
+/// What is missing, with its cure.
+pub fn connect_linuxcnc(plan: &Plan) -> Result<(LinuxCnc<HalPins>, Identity), Diagnostics> {
+    let settings = linuxcnc_settings(plan);
+    let refused = |message: String, hint: &str| {
+        let mut problems = Diagnostics::new();
+        let place = Place::whole(&plan.path.display().to_string());
+        problems.error("live-no-link", place, message, hint);
+        problems
+    };
+    let hint = "start LinuxCNC with examples/08_live/linuxcnc/trueaxis.hal among its HALFILEs, then this as the same user";
+    let pins =
+        HalPins::open(&settings.layout()).map_err(|fault| refused(fault.to_string(), hint))?;
+    let mut control = LinuxCnc::new(pins, settings);
+    let identity = control.identity(0.0).map_err(|fault| refused(fault.to_string(), hint))?;
+    Ok((control, identity))
 }
 
 fn cure(fault: &LinkFault) -> &'static str {
@@ -89,23 +126,28 @@ fn cure(fault: &LinkFault) -> &'static str {
     }
 }
 
-fn settings(plan: &Plan, numbers: Vec<u16>) -> FanucSettings {
+fn settings(plan: &Plan, fanuc: &FanucPlan, numbers: Vec<u16>) -> FanucSettings {
     FanucSettings {
-        lever: plan.control.lever,
+        lever: fanuc.lever,
         numbers,
         live: plan.axes.iter().map(|axis| axis.axis).collect(),
         rotary: plan.machine.axes().iter().map(|axis| axis.kind == AxisKind::Rotary).collect(),
-        referenced: plan.control.referenced,
-        inhibit: plan.control.inhibit,
-        pmc: plan.control.pmc,
+        referenced: fanuc.referenced,
+        inhibit: fanuc.inhibit,
+        pmc: fanuc.pmc,
     }
 }
 
 /// The numbers of the axes of the machine in the control; what differs goes to `problems`.
-fn compare(plan: &Plan, found: &Identity, problems: &mut Diagnostics) -> Vec<u16> {
+fn compare(
+    plan: &Plan,
+    fanuc: &FanucPlan,
+    found: &Identity,
+    problems: &mut Diagnostics,
+) -> Vec<u16> {
     let place = || Place::whole(&plan.path.display().to_string());
     let Identity { kind, series, version, .. } = found;
-    if let Some(bound) = plan.control.bound.as_ref().filter(|bound| !bound.is(found)) {
+    if let Some(bound) = fanuc.bound.as_ref().filter(|bound| !bound.is(found)) {
         let message = format!(
             "the control at that address is {kind} {series} {version}, the plan is of {} {} {}",
             bound.kind, bound.series, bound.version
@@ -163,6 +205,8 @@ pub fn sensors_of(plan: &Plan) -> Vec<Box<dyn Sensor>> {
             Source::Log { log, column, start_s, speed } => {
                 Box::new(LogSensor::new(log.clone(), column, i, *start_s).at_speed(*speed))
             }
+            Source::Mqtt(source) => crate::sensor::mqtt::subscribe(source, i),
+            Source::Modbus(source) => crate::sensor::modbus::read_register(source, i),
             Source::Constant { celsius } => {
                 Box::new(ConstantSensor { sensor: i, celsius: *celsius, next_s: 0.0 })
             }

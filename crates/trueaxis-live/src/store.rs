@@ -1,6 +1,7 @@
 //! What a run leaves: what it owns in the control, its events, its state, its record.
 
 mod disk;
+mod latest;
 mod memory;
 
 pub use disk::{DiskStore, StoreFault, is_running, last_state, own_folder};

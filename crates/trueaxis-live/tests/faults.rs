@@ -19,8 +19,7 @@ struct Fault {
     number: u32,
     name: &'static str,
     injected: &'static str,
-    /// None where nothing is injected yet.
-    test: Option<fn() -> String>,
+    test: fn() -> String,
 }
 
 const RAMP: (&str, &str) = ("after_hold = \"stay\"", "after_hold = \"ramp\"\nramp_in_cut = true");
@@ -467,7 +466,11 @@ fn against(changes: &[(&str, &str)], change: fn(&mut FanucMock)) -> Vec<String> 
     change(&mut mock);
     let plan = standing(changes);
     let (mock, clock) = (Rc::new(RefCell::new(mock)), VirtualClock::default());
-    let connected = connect(&plan, MockWire::new(&mock, &clock, 0.3), clock.now_s());
+    let connected = connect(
+        (&plan, plan.control.fanuc().unwrap()),
+        MockWire::new(&mock, &clock, 0.3),
+        clock.now_s(),
+    );
     assert!(mock.borrow().written().is_empty());
     connected.err().map_or_else(Vec::new, |e| e.iter().map(|d| d.code.to_owned()).collect())
 }
@@ -553,180 +556,175 @@ const FAULTS: [Fault; 34] = [
         number: 1,
         name: "sensor silent",
         injected: "no sample of scale_x; policy ramp",
-        test: Some(silent_sensor),
+        test: silent_sensor,
     },
     Fault {
         number: 2,
         name: "NaN, text, empty value",
         injected: "five texts as samples",
-        test: Some(no_numbers),
+        test: no_numbers,
     },
-    Fault {
-        number: 3,
-        name: "out of range",
-        injected: "850, 3276.7, -40 °C",
-        test: Some(out_of_range),
-    },
+    Fault { number: 3, name: "out of range", injected: "850, 3276.7, -40 °C", test: out_of_range },
     Fault {
         number: 4,
         name: "stuck sensor",
         injected: "the workpiece stays to the last bit, the scales warm by 2.4 K",
-        test: Some(stuck),
+        test: stuck,
     },
     Fault {
         number: 5,
         name: "one of several sensors lost",
         injected: "no sample of the workpiece",
-        test: Some(one_lost),
+        test: one_lost,
     },
     Fault {
         number: 6,
         name: "wrong clock, suspend",
         injected: "samples an hour ahead and an hour old, an hour of sleep",
-        test: Some(wrong_clock),
+        test: wrong_clock,
     },
-    Fault { number: 7, name: "broker restart", injected: "needs MQTT", test: None },
+    Fault {
+        number: 7,
+        name: "broker restart",
+        injected: "all connections of an MQTT broker end, it has forgotten who has subscribed",
+        test: rig::broker::restart,
+    },
     Fault {
         number: 8,
         name: "retained old value",
         injected: "samples without a time",
-        test: Some(retained),
+        test: retained,
     },
-    Fault {
-        number: 9,
-        name: "network cut",
-        injected: "the cable is pulled for 6 s",
-        test: Some(cut),
-    },
-    Fault { number: 10, name: "control frozen", injected: "no answer for 2 s", test: Some(frozen) },
+    Fault { number: 9, name: "network cut", injected: "the cable is pulled for 6 s", test: cut },
+    Fault { number: 10, name: "control frozen", injected: "no answer for 2 s", test: frozen },
     Fault {
         number: 11,
         name: "latency, late reply",
         injected: "100 ms, then answers after the time limit",
-        test: Some(latency),
+        test: latency,
     },
     Fault {
         number: 12,
         name: "garbage frames",
         injected: "cut, too long, other bytes, other block count, other echo",
-        test: Some(garbage),
+        test: garbage,
     },
-    Fault { number: 13, name: "write refused", injected: "EW_PROT for 20 s", test: Some(refused) },
+    Fault { number: 13, name: "write refused", injected: "EW_PROT for 20 s", test: refused },
     Fault {
         number: 14,
         name: "partial write",
         injected: "EXT: X accepted, Y EW_REJECT",
-        test: Some(partial),
+        test: partial,
     },
     Fault {
         number: 15,
         name: "write not visible at once",
         injected: "EXT: 300 ms later",
-        test: Some(late_visible),
+        test: late_visible,
     },
     Fault {
         number: 16,
         name: "foreign write",
         injected: "20 µm typed into the area",
-        test: Some(foreign),
+        test: foreign,
     },
     Fault {
         number: 17,
         name: "two instances",
         injected: "a second journal on the same folder, and of another machine",
-        test: Some(two_instances),
+        test: two_instances,
     },
     Fault {
         number: 18,
         name: "our process ends with an offset",
         injected: "dropped, the next run 5 s later",
-        test: Some(killed_long),
+        test: killed_long,
     },
     Fault {
         number: 19,
         name: "restart with an offset",
         injected: "dropped, the next run 0.6 s later",
-        test: Some(restarted),
+        test: restarted,
     },
-    Fault { number: 20, name: "emergency stop", injected: "60 s", test: Some(emergency) },
+    Fault { number: 20, name: "emergency stop", injected: "60 s", test: emergency },
     Fault {
         number: 21,
         name: "not homed, homed again",
         injected: "reference bits gone for 5 s",
-        test: Some(unhomed),
+        test: unhomed,
     },
     Fault {
         number: 22,
         name: "power of the control",
         injected: "EXT kept, EXT lost",
-        test: Some(power_cycle),
+        test: power_cycle,
     },
     Fault {
         number: 23,
         name: "mode changes",
         injected: "manual, MDI, edit, reference",
-        test: Some(mode),
+        test: mode,
     },
     Fault {
         number: 24,
         name: "probing, threading",
         injected: "the inhibit bit of the ladder",
-        test: Some(inhibited),
+        test: inhibited,
     },
     Fault {
         number: 25,
         name: "limit reached",
         injected: "60 µm where 66 are needed",
-        test: Some(limited),
+        test: limited,
     },
     Fault {
         number: 26,
         name: "target jumps",
         injected: "0.15 K at once, 5.7 µm; jump 5 µm",
-        test: Some(jump),
+        test: jump,
     },
     Fault {
         number: 27,
         name: "position outside the model",
         injected: "X = 3600 mm of 3500",
-        test: Some(outside),
+        test: outside,
     },
     Fault {
         number: 28,
         name: "increments differ",
         injected: "0.1 µm in the plan",
-        test: Some(increments),
+        test: increments,
     },
     Fault {
         number: 29,
         name: "axes differ",
         injected: "a control without Y; another order",
-        test: Some(axes),
+        test: axes,
     },
     Fault {
         number: 30,
         name: "another machine at the address",
         injected: "another series",
-        test: Some(other_machine),
+        test: other_machine,
     },
     Fault {
         number: 31,
         name: "overflow, dither",
         injected: "noise of 0.5 increments",
-        test: Some(dither),
+        test: dither,
     },
     Fault {
         number: 32,
         name: "disk full",
         injected: "the journal takes nothing for 10 s",
-        test: Some(journal),
+        test: journal,
     },
-    Fault { number: 33, name: "overload", injected: "cycles 0.8 s late", test: Some(overload) },
+    Fault { number: 33, name: "overload", injected: "cycles 0.8 s late", test: overload },
     Fault {
         number: 34,
         name: "plan edited while running",
         injected: "another limit in the file",
-        test: Some(frozen_plan),
+        test: frozen_plan,
     },
 ];
 
@@ -734,13 +732,13 @@ const FAULTS: [Fault; 34] = [
 fn law_every_fault_ends_in_its_state() {
     let mut table = String::from(
         "# Faults of a live run\n\nMade by `TRUEAXIS_WRITE_FAULTS=1 cargo test -p trueaxis-live --test faults`; \
-         `scripts/live-faults` prints it. Every row but those marked “not yet” is injected on the mock with a virtual \
-         clock, over the frames of FOCAS in memory; in all of them no step is larger than that of the plan, and nothing is \
-         written in emergency stop, unhomed or without a link. By SIGKILL, SIGSTOP, cut sockets or on LinuxCNC nothing \
-         was injected yet.\n\n| # | fault | injected | seen |\n|---|---|---|---|\n",
+         `scripts/live-faults` prints it. Row 7 is injected on a small broker, every other one on the FANUC mock with a \
+         virtual clock, over the frames of FOCAS in memory; in all of them no step is larger than that of the plan, and \
+         nothing is written in emergency stop, unhomed or without a link. A run that is killed or frozen by a signal in a \
+         cut, and a control that is switched off, are in `scripts/live-linuxcnc`.\n\n| # | fault | injected | seen |\n|---|---|---|---|\n",
     );
     for Fault { number, name, injected, test } in &FAULTS {
-        let seen = test.map_or_else(|| "not yet".to_owned(), |test| test());
+        let seen = test();
         table += &format!("| {number} | {name} | {injected} | {seen} |\n");
     }
     let page = root().join("docs/live-faults.md");
@@ -756,5 +754,8 @@ fn law_every_fault_ends_in_its_state() {
 fn levers_have_the_watchdog_that_they_say() {
     assert!(standing(&[]).control.has_watchdog());
     let ext = standing(&[EXT]);
-    assert!(!ext.control.has_watchdog() && ext.control.lever == Lever::Ext);
+    assert!(
+        !ext.control.has_watchdog()
+            && ext.control.fanuc().is_some_and(|fanuc| fanuc.lever == Lever::Ext)
+    );
 }

@@ -12,6 +12,7 @@ use trueaxis_live::focas::{PmcAddress, PmcBit};
 use trueaxis_live::governor::{
     AfterHold, AxisLimits, Governor, Inputs, OnDifference, Owned, Reason, Settings, State,
 };
+use trueaxis_live::pose::Frame;
 
 /// A generator whose stream is the same on every computer: SplitMix64 of Steele, Lea and Flood 2014.
 struct Random(u64);
@@ -95,7 +96,11 @@ fn run(random: &mut Random, steps: u32, counted: &mut Counted) {
         cutting: true,
         inhibited: false,
         tripped: false,
+        released: false,
         feed_mm_per_min: 0.0,
+        frame: Frame::Machine,
+        tool_length_mm: None,
+        standing_tip_mm: None,
     };
     let mut plant = Plant { seen, pending: Vec::new() };
     let (mut now_s, mut target, mut linked) = (0.0, vec![0.0; axes], true);

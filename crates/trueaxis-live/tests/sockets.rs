@@ -21,8 +21,8 @@ fn served() -> (trueaxis_live::file::Plan, MockServer) {
 fn connected(timeout_s: f64) -> (MockServer, Fanuc<TcpWire>) {
     let (plan, server) = served();
     let wire = TcpWire::new(&server.address().to_string(), timeout_s);
-    let (control, identity) =
-        connect(&plan, wire, 0.0).unwrap_or_else(|e| panic!("{:?}", e.sorted()));
+    let (control, identity) = connect((&plan, plan.control.fanuc().unwrap()), wire, 0.0)
+        .unwrap_or_else(|e| panic!("{:?}", e.sorted()));
     assert_eq!((identity.series.as_str(), identity.axes.join("")), ("G42A", "XYZ".to_owned()));
     (server, control)
 }
@@ -73,7 +73,13 @@ fn a_peer_that_is_no_control_is_no_control() {
         }
     });
     let plan = standing(&[]);
-    let refused = connect(&plan, TcpWire::new(&address.to_string(), 1.0), 0.0).err().unwrap();
+    let refused = connect(
+        (&plan, plan.control.fanuc().unwrap()),
+        TcpWire::new(&address.to_string(), 1.0),
+        0.0,
+    )
+    .err()
+    .unwrap();
     let first = refused.iter().next().unwrap();
     assert_eq!(first.code, "live-no-link");
     assert!(first.message.contains("does not begin with a0 a0 a0 a0"), "{}", first.message);

@@ -239,11 +239,53 @@ pub fn ask<Q: Question>(
 /// Whether every number of an answer is one: JSON has no other, and no user can act on it.
 pub fn is_finite(answer: &impl Answer, problems: &mut Diagnostics) -> bool {
     let document = answer.document(problems);
+    warn_of_absurd(&document, problems);
     let Some(entry) = not_finite(&document) else { return true };
     let message = format!("`{entry}` of the answer is not a finite number");
     let hint = "a value of the input is probably far too large or too small: check its units and exponents";
     problems.error("not-finite-result", Place::whole(entry), message, hint);
     false
+}
+
+/// The largest figures of an answer that anybody would believe: a metre or a radian of an error.
+const BELIEVED: [(&str, f64); 3] = [("_um", 1e6), ("_urad", 1e6), ("_um_per_m_k", 1e4)];
+
+/// Warnings that name where such a figure comes from.
+const SAID: [&str; 2] = ["implausible-value", "deviation-outside-travel"];
+
+/// An error of metres comes from a wrong unit or a slip of the point. Where no input was named for it, the answer says it.
+fn warn_of_absurd(document: &Value, problems: &mut Diagnostics) {
+    let said = problems.iter().any(|d| SAID.contains(&d.code));
+    let Some((place, value)) = absurd(document, "", "").filter(|_| !said) else { return };
+    let message =
+        format!("`{place}` of the answer is {value:e}: no error of a machine or part is as large");
+    let hint = "look for a wrong unit, a lost decimal point or a wrong row in the input";
+    problems.warn("absurd-result", Place::whole(&place), message, hint);
+}
+
+/// The first figure above what is believed, with its place.
+fn absurd(value: &Value, key: &str, place: &str) -> Option<(String, f64)> {
+    let inside = |key: &str, step: &str| match place {
+        "" => (key.to_owned(), step.to_owned()),
+        _ => (key.to_owned(), format!("{place}.{step}")),
+    };
+    match value {
+        Value::Number(number) => {
+            let number = number.as_f64()?;
+            let limits = BELIEVED.iter().filter(|(ending, _)| key.ends_with(ending));
+            let beyond = limits.map(|(_, most)| *most).any(|most| number.abs() > most);
+            beyond.then(|| (place.to_owned(), number))
+        }
+        Value::Array(list) => list.iter().enumerate().find_map(|(i, entry)| {
+            let (key, place) = inside(key, &i.to_string());
+            absurd(entry, &key, &place)
+        }),
+        Value::Object(entries) => entries.iter().find_map(|(name, entry)| {
+            let (key, place) = inside(name, name);
+            absurd(entry, &key, &place)
+        }),
+        _ => None,
+    }
 }
 
 /// A document with what was found in the files, in the order in which it was found.

@@ -5,13 +5,61 @@ use super::{time, word};
 use crate::control::Identity;
 use crate::focas::{Lever, PmcAddress, PmcAreas, PmcBit};
 use crate::mock::{LadderSettings, MockPath, Stop};
+use crate::pose::World;
 use trueaxis::input::{Dimension, Item, Section};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::AxisKind;
 
+/// The control of a plan.
+#[derive(Debug, Clone)]
+pub enum ControlPlan {
+    /// FANUC by FOCAS2 over Ethernet.
+    Fanuc(Box<FanucPlan>),
+    /// LinuxCNC on this computer, by its HAL.
+    LinuxCnc(LinuxCncPlan),
+}
+
+impl ControlPlan {
+    /// Whether something in the control takes the offsets back when nothing comes from here.
+    pub fn has_watchdog(&self) -> bool {
+        match self {
+            Self::Fanuc(fanuc) => fanuc.lever == Lever::Pmc,
+            Self::LinuxCnc(_) => true,
+        }
+    }
+
+    /// Whether it takes offsets of tip and angles, so that all axes are corrected together.
+    pub fn takes_pose(&self) -> bool {
+        matches!(self, Self::LinuxCnc(_))
+    }
+
+    /// The time limit of one exchange.
+    pub fn timeout_s(&self) -> f64 {
+        match self {
+            Self::Fanuc(fanuc) => fanuc.timeout_s,
+            Self::LinuxCnc(linuxcnc) => linuxcnc.timeout_s,
+        }
+    }
+
+    /// The FANUC control, if it is one.
+    pub fn fanuc(&self) -> Option<&FanucPlan> {
+        match self {
+            Self::Fanuc(fanuc) => Some(fanuc),
+            Self::LinuxCnc(_) => None,
+        }
+    }
+}
+
+/// LinuxCNC.
+#[derive(Debug, Clone, Copy)]
+pub struct LinuxCncPlan {
+    /// A servo thread that does not go on for so long has ended.
+    pub timeout_s: f64,
+}
+
 /// A FANUC control of a plan.
 #[derive(Debug, Clone)]
-pub struct ControlPlan {
+pub struct FanucPlan {
     /// `host:port`; none for a mock of its own.
     pub address: Option<String>,
     /// How the offset gets in.
@@ -28,13 +76,6 @@ pub struct ControlPlan {
     pub pmc: Option<PmcAreas>,
     /// The mock, where there is no address.
     pub mock: Option<(MockPath, LadderSettings)>,
-}
-
-impl ControlPlan {
-    /// Whether something in the control takes the offsets back when nothing comes from here.
-    pub fn has_watchdog(&self) -> bool {
-        self.lever == Lever::Pmc
-    }
 }
 
 /// What a control must say of itself.
@@ -61,10 +102,16 @@ pub(super) fn read_control(
     axes: &[AxisPlan],
 ) -> Option<ControlPlan> {
     let mock = root.section("mock", |s| read_mock(s, machine, axes));
-    let hint =
-        "[control] kind = \"fanuc\", address = \"192.168.1.10:8193\", lever, referenced, inhibit";
+    let hint = "[control] kind = \"fanuc\", address = \"192.168.1.10:8193\", lever, referenced, inhibit; or kind = \"linuxcnc\"";
     let item = root.require("control", hint)?;
-    let mut control = item.section("control", read_fanuc).flatten()?;
+    let read = |section: &Section<'_>| match read_kind(section)? {
+        Kind::Fanuc => read_fanuc(section).map(|fanuc| ControlPlan::Fanuc(Box::new(fanuc))),
+        Kind::LinuxCnc => read_linuxcnc(section, machine, axes),
+    };
+    let mut control = match item.section("control", read).flatten()? {
+        ControlPlan::Fanuc(fanuc) => fanuc,
+        other => return Some(other),
+    };
     match (&control.address, mock) {
         (None, Some(mock)) => control.mock = Some(mock?),
         (None, None) => {
@@ -85,11 +132,51 @@ pub(super) fn read_control(
         }
         (Some(_), None) => check_real(&item, &control, axes),
     }
-    Some(control)
+    Some(ControlPlan::Fanuc(control))
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Fanuc,
+    LinuxCnc,
+}
+
+fn read_kind(section: &Section<'_>) -> Option<Kind> {
+    let item = section.require("kind", "kind = \"fanuc\", or \"linuxcnc\"")?;
+    word(&item, &[("fanuc", Kind::Fanuc), ("linuxcnc", Kind::LinuxCnc)])
+}
+
+fn read_linuxcnc(
+    section: &Section<'_>,
+    machine: &Machine,
+    axes: &[AxisPlan],
+) -> Option<ControlPlan> {
+    let timeout_s = time(section, "timeout", 0.05);
+    let simulated = section.get("simulated").and_then(|item| item.flag()).unwrap_or(false);
+    if let Err(message) = World::of(machine) {
+        section.error("live-no-pose", message, "a machine with X, Y and Z square to each other");
+    }
+    for axis in axes.iter().filter(|axis| axis.sign < 0.0) {
+        let message = format!("LinuxCNC adds the offset of {} to its position", axis.name);
+        section.error("live-commissioning", message, "leave `sign` out");
+    }
+    if !simulated {
+        check_commissioned(section, axes);
+    }
+    Some(ControlPlan::LinuxCnc(LinuxCncPlan { timeout_s }))
+}
+
+/// Nothing is written to a machine before sign and scale of each axis were seen.
+fn check_commissioned(section: &Section<'_>, axes: &[AxisPlan]) {
+    for axis in axes.iter().filter(|axis| axis.commissioned.is_none()) {
+        let message = format!("axis {}: sign and scale of its offset were not measured", axis.name);
+        let hint = "docs/ladder-watchdog.md: write 10 um, measure the tool, enter commissioned = { wrote, measured, evidence }; a control without a machine: simulated = true";
+        section.error("live-not-commissioned", message, hint);
+    }
 }
 
 /// A real control is bound, and nothing is written to it before sign and scale of each axis were seen.
-fn check_real(item: &Item<'_>, control: &ControlPlan, axes: &[AxisPlan]) {
+fn check_real(item: &Item<'_>, control: &FanucPlan, axes: &[AxisPlan]) {
     if control.bound.is_none() {
         let message = "the plan does not say which control is at that address".to_owned();
         let hint = "identity = { kind = \"31\", series = \"G42A\", version = \"01.0\" }: where it differs, the refusal names what the control says of itself";
@@ -102,8 +189,7 @@ fn check_real(item: &Item<'_>, control: &ControlPlan, axes: &[AxisPlan]) {
     }
 }
 
-fn read_fanuc(section: &Section<'_>) -> Option<ControlPlan> {
-    section.require("kind", "kind = \"fanuc\"").and_then(|item| word(&item, &[("fanuc", ())]));
+fn read_fanuc(section: &Section<'_>) -> Option<FanucPlan> {
     let address = section.require("address", "address = \"192.168.1.10:8193\", or \"mock\"");
     let address = address.and_then(|item| read_address(&item));
     let levers = [("ext", Lever::Ext), ("pmc", Lever::Pmc)];
@@ -130,7 +216,7 @@ fn read_fanuc(section: &Section<'_>) -> Option<ControlPlan> {
         let hint = "pmc = { command, acting, heartbeat, ask_hold, tripped }: addresses of the builder of the machine";
         section.error("live-no-pmc", "the lever `pmc` has no addresses".to_owned(), hint);
     }
-    Some(ControlPlan {
+    Some(FanucPlan {
         address: address?,
         lever: lever?,
         timeout_s,

@@ -1,9 +1,11 @@
 //! `[sensor.…]` of a plan: where temperatures come from, and which of them can be used.
 
 use super::axes::AxisPlan;
-use super::time;
+use super::{sources, time};
 use crate::model::at;
 use crate::sensor::SensorSettings;
+use crate::sensor::modbus::ModbusSource;
+use crate::sensor::mqtt::MqttSource;
 use std::path::Path;
 use std::sync::Arc;
 use trueaxis::input::plausible::Quantity;
@@ -35,6 +37,10 @@ pub enum Source {
         /// Seconds of the log per second of the run. Unit: 1.
         speed: f64,
     },
+    /// A topic of an MQTT broker.
+    Mqtt(MqttSource),
+    /// A register of a Modbus device.
+    Modbus(ModbusSource),
     /// One value, every second: for a mock.
     Constant {
         /// The value.
@@ -46,11 +52,15 @@ pub(super) fn read_sensors(
     root: &Section<'_>,
     folder: &Path,
     machine: &Machine,
-    (axes, of): (&[AxisPlan], Compensation),
+    (axes, of, pose): (&[AxisPlan], Compensation, bool),
 ) -> Option<Vec<SensorPlan>> {
+    let needed = needed(machine.heat(), (axes, pose), of);
+    if needed.is_empty() && root.get("sensor").is_none() {
+        return Some(Vec::new());
+    }
     let found = root.section("sensor", |section| {
         let (mut sensors, mut instead) = (Vec::new(), Vec::new());
-        let (mut sound, needed) = (true, needed(machine.heat(), axes, of));
+        let mut sound = true;
         for (name, place, item) in section.entries() {
             let read = item.section(&section.path(name), |s| {
                 let stands_in =
@@ -85,9 +95,10 @@ pub(super) fn read_sensors(
     Some(sensors)
 }
 
-/// The sensors without which the correction is not known: of the scales of live axes, of the structure, of the workpiece.
-fn needed(heat: &HeatModel, axes: &[AxisPlan], of: Compensation) -> Vec<String> {
-    let live = |axis: &usize| axes.iter().any(|plan| plan.axis == *axis);
+/// The sensors without which the correction is not known: of the scales of live axes (of all for a pose), of the structure, of
+/// the workpiece.
+fn needed(heat: &HeatModel, (axes, pose): (&[AxisPlan], bool), of: Compensation) -> Vec<String> {
+    let live = |axis: &usize| pose || axes.iter().any(|plan| plan.axis == *axis);
     let scales = heat.scales.iter().filter(|scale| live(&scale.axis));
     let scales = scales.flat_map(|scale| scale.sensors.iter().map(|s| s.name.clone()));
     let structure = heat.structure.iter().flat_map(|s| s.coefficients.iter().map(|c| c.0.clone()));
@@ -209,7 +220,7 @@ fn read_sensor(section: &Section<'_>, name: &str, folder: &Path) -> Option<Senso
     });
     let stale = section.require("stale", "stale = \"30 s\"").is_some();
     let (stale_s, stuck_s) = (time(section, "stale", 30.0), time(section, "stuck", 600.0));
-    let hint = "source = { log = \"day.csv\" }, or { constant = \"30.5 degC\" } for a mock";
+    let hint = "source = { mqtt = \"host:1883\", topic }, { modbus = \"host:502\", register }, { log = \"day.csv\" }, or { constant = \"30.5 degC\" } for a mock";
     let source = section.require("source", hint).and_then(|item| {
         item.section(&section.path("source"), |s| read_source(s, &input, folder)).flatten()
     });
@@ -250,7 +261,14 @@ fn read_source(section: &Section<'_>, input: &str, folder: &Path) -> Option<Sour
     if let Some(item) = section.get("constant") {
         return Some(Source::Constant { celsius: item.quantity_of(Quantity::Temperature)? });
     }
-    let item = section.require("log", "log = \"day.csv\", or constant = \"30.5 degC\"")?;
+    if let Some(item) = section.get("mqtt") {
+        return sources::read_mqtt(section, &item, folder).map(Source::Mqtt);
+    }
+    if let Some(item) = section.get("modbus") {
+        return sources::read_modbus(section, &item).map(Source::Modbus);
+    }
+    let hint = "mqtt = \"host:1883\", modbus = \"host:502\", log = \"day.csv\", or constant = \"30.5 degC\"";
+    let item = section.require("log", hint)?;
     let path = folder.join(item.text()?);
     let mut problems = Diagnostics::new();
     let log = read_log(section, &path, &mut problems);

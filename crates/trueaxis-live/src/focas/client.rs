@@ -6,6 +6,7 @@ use super::pmc::{PmcAddress, PmcAreas, PmcBit};
 use super::status::refusal;
 use super::wire::Wire;
 use crate::control::{Control, Identity, LinkFault, Mode, Seen, Sent};
+use crate::pose::Frame;
 
 /// More axes no control has.
 const MOST_AXES: usize = 32;
@@ -255,7 +256,11 @@ impl<W: Wire> Control for Fanuc<W> {
             cutting,
             inhibited: settings.inhibit.is_set(inhibit),
             tripped,
+            released: false,
             feed_mm_per_min: feed.value(),
+            frame: Frame::Machine,
+            tool_length_mm: None,
+            standing_tip_mm: None,
         })
     }
 

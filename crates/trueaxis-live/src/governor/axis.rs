@@ -87,6 +87,12 @@ impl AxisMemory {
         self.before = held;
     }
 
+    /// The control has gone to `held` by itself; where it goes from there is no jump.
+    pub fn release(&mut self, held: i32) {
+        self.take(held);
+        self.target = None;
+    }
+
     /// Whether a value lies between the base and what was written: where a ladder has ramped to.
     pub fn is_between(&self, held: i32) -> bool {
         let ends = [self.base, self.whole(), self.before];

@@ -60,6 +60,8 @@ pub enum Reason {
     Watchdog,
     /// The control forbids it: probing, threading, tool setting.
     Inhibited,
+    /// The control has taken the offset back itself: its kinematics change.
+    Released,
     /// A mode in which offsets do not change.
     Mode,
     /// A sensor gives nothing that can be used.
@@ -119,6 +121,9 @@ impl fmt::Display for Reason {
             Self::HomedAgain => write!(f, "the axes were homed again"),
             Self::Watchdog => write!(f, "the watchdog of the control has tripped"),
             Self::Inhibited => write!(f, "the control forbids a change now"),
+            Self::Released => {
+                write!(f, "the control has taken the offset back: its kinematics change")
+            }
             Self::Mode => write!(f, "mode of operation"),
             Self::Sensor { sensor, what } => write!(f, "sensor {sensor}: {what}"),
             Self::Workpiece { sensor, what } => write!(f, "workpiece sensor {sensor}: {what}"),

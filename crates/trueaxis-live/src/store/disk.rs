@@ -3,6 +3,7 @@
 //! `owned` has two lines of fixed length that are written in turn, each with a number and a checksum: a run that is killed
 //! while it writes one leaves the other. The journal only grows by events, never by cycles.
 
+use super::latest::Latest;
 use super::{Event, Owner, Store};
 use crate::control::Identity;
 use crate::cycle::CycleInput;
@@ -39,6 +40,7 @@ pub struct DiskStore {
     number: u64,
     journal: File,
     record: Option<BufWriter<File>>,
+    state: Latest,
     /// Held as long as the run lasts.
     _lock: File,
 }
@@ -136,17 +138,18 @@ impl DiskStore {
             number,
             journal,
             record: None,
+            state: Latest::of(folder.join("state.json")),
             _lock: lock,
         };
         Ok((store, last.map(|line| line.owned)))
     }
 
-    /// Records every cycle into this file.
+    /// Records every cycle into this new file: a record that is there already stays.
     ///
     /// # Errors
     /// What the disk says.
     pub fn record_into(&mut self, path: &Path) -> io::Result<()> {
-        self.record = Some(BufWriter::new(File::create(path)?));
+        self.record = Some(BufWriter::new(File::create_new(path)?));
         Ok(())
     }
 
@@ -192,9 +195,7 @@ impl Store for DiskStore {
     }
 
     fn state(&mut self, document: &Value) -> Result<(), String> {
-        let text = format!("{document:#}\n");
-        trueaxis::files::write(&self.folder.join("state.json"), text.as_bytes())
-            .map_err(|e| e.to_string())
+        self.state.put(format!("{document:#}\n"))
     }
 
     fn record(&mut self, input: &CycleInput, order: &Order) -> Result<(), String> {

@@ -3,6 +3,9 @@
 // Each test program uses a part of this file.
 #![allow(dead_code)]
 
+pub mod broker;
+pub mod trt;
+
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -113,8 +116,9 @@ impl Rig {
         clock: VirtualClock,
         owned: Option<Owned>,
     ) -> Self {
-        let wire = MockWire::new(&mock, &clock, plan.control.timeout_s);
-        let connected = connect(&plan, wire, clock.now_s());
+        let fanuc = plan.control.fanuc().expect("a FANUC control");
+        let wire = MockWire::new(&mock, &clock, fanuc.timeout_s);
+        let connected = connect((&plan, fanuc), wire, clock.now_s());
         let (control, identity) = connected.unwrap_or_else(|e| panic!("{:?}", e.sorted()));
         let count = plan.sensors.len();
         let sensors = Rc::new(RefCell::new(Temperatures {
@@ -127,7 +131,7 @@ impl Rig {
             Box::new(TestSensor { sensor, from: Rc::clone(&sensors), next_s: 0.0 })
         });
         let (store, all) = (MemoryStore::default(), all.collect());
-        let run = Run::new(&plan, owned, control, all, store.clone());
+        let run = Run::new(&plan, owned, Box::new(control), all, store.clone());
         let wish = Wish { run: true, confirmed: false };
         Self {
             plan,

@@ -7,7 +7,7 @@ use trueaxis_geometry::Vec3;
 /// Points that a place of the surface is made of.
 const NEIGHBOURS: usize = 18;
 /// Of the polynomial, and how many terms that are.
-const DEGREE: i32 = 4;
+const DEGREE: usize = 4;
 const TERMS: usize = 15;
 /// Weight of nothing beside that of the points.
 const RIDGE: f64 = 1e-10;
@@ -99,8 +99,12 @@ impl NominalSurface {
             ];
             for (row, value) in rows {
                 let w = (1.0 - d / farthest).powi(2);
-                m += row * row.transpose() * w;
-                rhs += row * (value * w);
+                // The lower half is all that Cholesky reads; this is most of the work of an adaptation.
+                for j in 0..TERMS {
+                    let weighted = row[j] * w;
+                    rhs[j] += weighted * value;
+                    (j..TERMS).for_each(|k| m[(k, j)] += weighted * row[k]);
+                }
             }
         }
         // A line of points says little across itself: a little weight keeps the rest at zero.
@@ -117,16 +121,16 @@ impl NominalSurface {
 
 /// uᵃvᵇ of all degrees to the fourth, or their derivative.
 fn terms(u: f64, v: f64, derivative: [i32; 2]) -> SVector<f64, TERMS> {
-    let power = |x: f64, n: i32, d: i32| match d {
-        0 => x.powi(n),
-        _ if n == 0 => 0.0,
-        _ => f64::from(n) * x.powi(n - 1),
+    let powers = |x: f64, d: i32| match d {
+        0 => [1.0, x, x * x, x * x * x, x * x * x * x],
+        _ => [0.0, 1.0, 2.0 * x, 3.0 * x * x, 4.0 * x * x * x],
     };
+    let (of_u, of_v) = (powers(u, derivative[0]), powers(v, derivative[1]));
     let mut row = SVector::zeros();
     let mut k = 0;
     for degree in 0..=DEGREE {
         for b in 0..=degree {
-            row[k] = power(u, degree - b, derivative[0]) * power(v, b, derivative[1]);
+            row[k] = of_u[degree - b] * of_v[b];
             k += 1;
         }
     }
