@@ -280,6 +280,9 @@ export type Reason =
       kind: "inhibited";
     }
   | {
+      kind: "released";
+    }
+  | {
       kind: "mode";
     }
   | {
@@ -7620,6 +7623,10 @@ export interface LiveExpect {
    */
   times: ExpectedTime[];
   /**
+   * What the loss of each sensor costs on that day.
+   */
+  losses: ExpectedLoss[];
+  /**
    * What no offset of an axis changes: the largest deviation of the tool axis over the day; null without rotary axes and
    * angular errors.
    */
@@ -7733,6 +7740,32 @@ export interface ExpectedTime {
    * With it. Unit: that of `unit`.
    */
   after: number[];
+}
+/**
+ * The loss of one sensor. Errors are the largest over the day and the travel, whenever it is lost; in the order of the axes, in
+ * their units.
+ */
+export interface ExpectedLoss {
+  /**
+   * The sensor of the plan.
+   */
+  sensor: string;
+  /**
+   * The sensor that stands in for it; null: the run holds.
+   */
+  instead: string | null;
+  /**
+   * Ten minutes after the loss. Unit: that of `unit`.
+   */
+  after_10_min: number[];
+  /**
+   * An hour after it. Unit: that of `unit`.
+   */
+  after_1_h: number[];
+  /**
+   * On the rest of the day. Unit: that of `unit`.
+   */
+  rest_of_day: number[];
 }
 /**
  * The state of a live run, or what the last run has left.

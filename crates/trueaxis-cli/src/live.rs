@@ -1,10 +1,13 @@
 //! `trueaxis live`: the correction in the control while it cuts.
 
+mod commission;
+
 use crate::door::DoorArguments;
 use crate::output::{Answer, Format, Outcome, report_and, show, tell};
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::report::refused_json;
@@ -13,7 +16,8 @@ use trueaxis_live::file::read_plan;
 use trueaxis_live::mock::MockServer;
 use trueaxis_live::session::{Session, replay, run_session};
 use trueaxis_live::start::mock_of;
-use trueaxis_live::status::{LiveStatus, shown_state, status_json};
+use trueaxis_live::status::{LiveStatus, folder_of, shown_state, status_json};
+use trueaxis_live::store::{ask_stop, is_running};
 
 /// A run is going on: the first interrupt ends it by its ramp.
 static RUNNING: AtomicBool = AtomicBool::new(false);
@@ -74,6 +78,10 @@ enum LiveCommand {
     Status(StatusArguments),
     /// What the correction would leave of the tool on a recorded day
     Expect(ExpectArguments),
+    /// End a run by its ramp, from another terminal
+    Stop(StopArguments),
+    /// Write an offset to one axis, take the reading of an indicator, and compare
+    Commission(CommissionArguments),
     /// Compute the orders of a record again and compare them to the last bit
     Replay(ReplayArguments),
     /// A control that is not there, for demonstrations and tests
@@ -101,6 +109,7 @@ struct StatusArguments {
 #[command(after_help = "\
 Examples:
   trueaxis live expect examples/08_live/gantry-mock.toml --temperature-log examples/03_predict/torque-arm-hall.csv
+  trueaxis live expect examples/08_live/gantry-mock.toml --temperature-log examples/03_predict/torque-arm-hall.csv --without workpiece
 
 Every row of the log is one sample of the sensors. Exit status: 0 done, 2 unusable input.")]
 struct ExpectArguments {
@@ -110,8 +119,49 @@ struct ExpectArguments {
     /// The temperatures of the day: a table with time_s and one column for each sensor (scale_x_degC)
     #[arg(long, value_name = "LOG.csv")]
     temperature_log: PathBuf,
+    /// Price the loss of this sensor only; without it that of every sensor
+    #[arg(long, value_name = "SENSOR")]
+    without: Option<String>,
     #[command(flatten)]
     door: DoorArguments,
+}
+
+/// The plan of the run.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  trueaxis live stop examples/08_live/gantry-mock.toml
+
+The run takes its offset back by the slew and ends; this waits for it, a minute at most. Exit status: 0 it has ended, or none was
+running; 1 it still runs; 2 unusable input.")]
+struct StopArguments {
+    /// The plan
+    #[arg(value_name = "LIVE.toml")]
+    plan: PathBuf,
+}
+
+/// The axis, and how far.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  trueaxis live commission my-live.toml --axis X --by \"10 um\" --evidence \"N.N., dial gauge 0.1 um\"
+
+Put an indicator against the tool in the direction of the axis; the axes stand. When the offset acts, type what the
+indicator shows, such as 9.8 um; an empty line ends it. The offset goes back by its slew. The line that is printed belongs into
+[axis.X] of the plan. Exit status: 0 within a fifth of what was written, 1 not, or no reading; 2 unusable input.")]
+struct CommissionArguments {
+    /// The plan; its axes need no `commissioned` for this
+    #[arg(value_name = "LIVE.toml")]
+    plan: PathBuf,
+    /// The axis
+    #[arg(long, value_name = "AXIS")]
+    axis: String,
+    /// How far its offset is moved
+    #[arg(long, value_name = "LENGTH", default_value = "10 um")]
+    by: String,
+    /// Who reads which instrument
+    #[arg(long, value_name = "TEXT", default_value = "name, instrument")]
+    evidence: String,
 }
 
 /// The record of a run.
@@ -166,8 +216,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
         Some(LiveCommand::Status(a)) => a.door.door().ask(&LiveStatus { plan: a.plan.clone() }),
         Some(LiveCommand::Expect(a)) => {
             let (plan, log) = (a.plan.clone(), a.temperature_log.clone());
-            a.door.door().ask(&ExpectLive { plan, log })
+            a.door.door().ask(&ExpectLive { plan, log, without: a.without.clone() })
         }
+        Some(LiveCommand::Stop(arguments)) => stop(arguments),
+        Some(LiveCommand::Commission(arguments)) => commission::run(arguments),
         Some(LiveCommand::Replay(arguments)) => run_replay(arguments),
         Some(LiveCommand::Mock(arguments)) => run_mock(arguments),
     }
@@ -223,6 +275,35 @@ fn run_live(arguments: &RunArguments) -> Outcome {
         return Outcome::No;
     }
     shown
+}
+
+fn stop(arguments: &StopArguments) -> Outcome {
+    let (plan, mut problems) = read_plan(&disk(), &arguments.plan);
+    let folder = plan.as_ref().and_then(|plan| folder_of(plan, &mut problems));
+    let Some(folder) = folder else { return refuse(problems, Format::Text) };
+    if !is_running(&folder) {
+        return show(&Answer::Text("no run of this plan is going on\n".to_owned()));
+    }
+    if let Err(error) = ask_stop(&folder) {
+        let place = Place::whole(&folder.display().to_string());
+        problems.error(
+            "live-no-journal",
+            place,
+            format!("cannot be written: {error}"),
+            "stop it as the user who has started it",
+        );
+        return refuse(problems, Format::Text);
+    }
+    for _ in 0..600 {
+        if !is_running(&folder) {
+            return show(&Answer::Text("the run has ended\n".to_owned()));
+        }
+        std::thread::sleep(Duration::from_millis(100));
+    }
+    show(&Answer::Text(
+        "the run has not ended within a minute: see trueaxis live status\n".to_owned(),
+    ));
+    Outcome::No
 }
 
 fn run_replay(arguments: &ReplayArguments) -> Outcome {

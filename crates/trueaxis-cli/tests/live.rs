@@ -128,3 +128,128 @@ fn what_is_gained_is_said_before() {
     assert!((29.01..33.2).contains(&before), "{row}");
     assert_eq!(document["tool_axis_urad"], Value::Null);
 }
+
+/// What a sensor costs that is lost: the run holds, and the hall goes on.
+#[test]
+fn the_loss_of_a_sensor_has_its_price() {
+    let folder = Folder::new("live-loss");
+    let log = "examples/03_predict/torque-arm-hall.csv";
+    let words = ["expect", PLAN, "--temperature-log", log, "--format", "json"];
+    let document = json(&ran(&folder, &words).1);
+    let losses = document["losses"].as_array().expect("losses");
+    let names: Vec<&str> = losses.iter().map(|l| l["sensor"].as_str().expect("a name")).collect();
+    assert_eq!(names, ["scale_x", "scale_y", "workpiece"]);
+    for (axis, of) in document["axes"].as_array().expect("axes").iter().enumerate() {
+        let [before, after] = ["before", "after"].map(|key| of[key].as_f64().expect("a number"));
+        for loss in losses {
+            let at = |key: &str| loss[key][axis].as_f64().expect("a number");
+            let [ten, hour, rest] = ["after_10_min", "after_1_h", "rest_of_day"].map(at);
+            // It never gets better, and the day is not worse than twice what is there without any correction.
+            assert!(
+                after <= ten + 1e-9 && ten <= hour && hour <= rest && rest <= 2.0 * before,
+                "{loss} {of}"
+            );
+            assert!(rest > 5.0 * after, "{loss} {of}");
+        }
+    }
+    let one = json(&ran(&folder, &[&words[..], &["--without", "workpiece"]].concat()).1);
+    assert_eq!(one["losses"].as_array().map(Vec::len), Some(1));
+    let (status, _, err) = ran(&folder, &[&words[..], &["--without", "hall"]].concat());
+    assert!(status == 2 && err.contains("the plan has no sensor `hall`"), "{err}");
+}
+
+/// Every line of the text format of Prometheus that is no comment: name, labels, value.
+fn metrics(text: &str) -> Vec<(String, f64)> {
+    let samples = text.lines().filter(|line| !line.starts_with('#'));
+    let sample = |line: &str| {
+        let (name, value) = line.rsplit_once(' ').expect("a value");
+        let legal = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        assert!(name.split('{').next().expect("a name").chars().all(legal), "{line}");
+        (name.to_owned(), value.parse().expect("a number"))
+    };
+    samples.map(sample).collect()
+}
+
+#[test]
+fn another_terminal_ends_a_run_and_its_metrics_stay() {
+    let folder = Folder::new("live-stop");
+    assert!(ran(&folder, &["stop", PLAN]).1.contains("no run of this plan"));
+    let mut first = live(&folder, &[PLAN]);
+    let mut first = first.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts");
+    for _ in 0..100 {
+        let (_, out, _) = ran(&folder, &["status", PLAN, "--format", "json"]);
+        let document = json(&out);
+        if document["running"] == true && document["last"]["state"] == "run" {
+            break;
+        }
+        thread::sleep(Duration::from_millis(100));
+    }
+    let (status, out, err) = ran(&folder, &["stop", PLAN]);
+    assert!(status == 0 && out.contains("the run has ended"), "{out}{err}");
+    assert!(first.wait().expect("it ends").success());
+    // The next run is not ended by it.
+    let (status, _, err) = ran(&folder, &[PLAN, "--for", "2s"]);
+    assert!(status == 0 && err.contains("Run: follows its target"), "{err}");
+
+    let journals = std::fs::read_dir(folder.path("state/trueaxis/live")).expect("a folder");
+    let page = journals.flatten().next().expect("a journal").path().join("metrics.prom");
+    let all = metrics(&std::fs::read_to_string(page).expect("metrics"));
+    let value = |part: &str| {
+        let found: Vec<_> = all.iter().filter(|(name, _)| name.contains(part)).collect();
+        assert_eq!(found.len(), 1, "{part}: {all:?}");
+        found[0].1
+    };
+    assert_eq!((value("state=\"off\""), value("state=\"run\"")), (1.0, 0.0));
+    assert_eq!(value("limit{plan=\"gantry of Zhang et al. 2019 on a mock\",axis=\"X\""), 600.0);
+    assert!(
+        value("cycles_total") > 10.0
+            && value(
+                "sensor_age_seconds{plan=\"gantry of Zhang et al. 2019 on a mock\",sensor=\"workpiece\""
+            ) >= 0.0
+    );
+}
+
+/// An indicator is read while the offset acts; the line for the plan comes from it.
+#[test]
+fn an_axis_is_commissioned_at_an_indicator() {
+    use std::io::Write;
+    let folder = Folder::new("live-commission");
+    let answer = |words: &[&str], reading: &str| {
+        let all = [&["commission", PLAN], words].concat();
+        let mut command = live(&folder, &all);
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().expect("it starts");
+        child.stdin.take().expect("a terminal").write_all(reading.as_bytes()).expect("typed");
+        let done = child.wait_with_output().expect("it ends");
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
+        (done.status.code(), text(done.stdout), text(done.stderr))
+    };
+    let (status, out, err) =
+        answer(&["--axis", "X", "--by", "20 um", "--evidence", "N.N., gauge"], "about\n19.6 um\n");
+    assert_eq!(status, Some(0), "{out}{err}");
+    assert!(out.contains("commissioned = { wrote = \"20.000 um\", measured = \"19.600 um\", evidence = \"N.N., gauge\" }"), "{out}");
+    assert!(
+        err.contains("the offset of X is 20 um now") && err.contains("Off: not asked for"),
+        "{err}"
+    );
+    for (reading, words) in
+        [("-20 um\n", "near -1 it is the sign"), ("508 um\n", "near 25.4 inches")]
+    {
+        let (status, out, _) = answer(&["--axis", "Y", "--by", "20 um"], reading);
+        assert!(status == Some(1) && out.contains(words), "{out}");
+    }
+    let (status, out, err) = answer(&["--axis", "X"], "\n");
+    assert!(
+        status == Some(1) && out.is_empty() && err.contains("no reading: nothing is proved"),
+        "{err}"
+    );
+    for (words, code) in [
+        (&["--axis", "Z"][..], "unknown-axis"),
+        (&["--axis", "X", "--by", "0.5 um"], "live-limit"),
+        (&["--axis", "X", "--by", "2 mm"], "live-limit"),
+        (&["--axis", "X", "--by", "ten"], "live-limit"),
+    ] {
+        let (status, _, err) = answer(words, "");
+        assert!(status == Some(2) && err.contains(code), "{words:?}: {err}");
+    }
+}

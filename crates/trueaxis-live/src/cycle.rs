@@ -49,6 +49,7 @@ pub struct Correction {
     model: Model,
     governor: Governor,
     last_s: Option<f64>,
+    constant: Option<Vec<f64>>,
 }
 
 impl Correction {
@@ -71,7 +72,14 @@ impl Correction {
             model,
             governor: Governor::new(plan.settings.clone(), owned),
             last_s: None,
+            constant: None,
         }
+    }
+
+    /// The same with a constant in the place of the model's target, in increments.
+    #[must_use]
+    pub fn with_target(self, offsets: Vec<f64>) -> Self {
+        Self { constant: Some(offsets), ..self }
     }
 
     /// What this program owns in the control, for the journal.
@@ -105,7 +113,10 @@ impl Correction {
         let known =
             tool.unwrap_or(Ok(())).and_then(|()| seen.map_or(Ok(()), |s| self.check_tip(s)));
         let frame = seen.map_or_else(Default::default, |seen| seen.frame);
-        let target = known.and_then(|()| self.target(&sensors, (frame, programmed.as_ref())));
+        let target = match &self.constant {
+            Some(offsets) => Ok(Target { offsets: offsets.clone(), is_clamped: false }),
+            None => known.and_then(|()| self.target(&sensors, (frame, programmed.as_ref()))),
+        };
         let lost = |fault: &LinkFault| Reason::LinkLost { what: fault.to_string() };
         let order = self.governor.step(
             dt_s,

@@ -6,8 +6,13 @@
 //!     left(t, q)   = e(t, q) + offset + v · |de/dq| · age
 //! ```
 
-use crate::file::{Plan, Source, read_plan};
+mod losses;
+
+pub use losses::ExpectedLoss;
+
+use crate::file::{Plan, SensorPlan, Source, read_plan};
 use crate::model::{LiveAxis, Model, at};
+use losses::Day;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
@@ -35,6 +40,8 @@ pub struct ExpectLive {
     pub plan: PathBuf,
     /// The log of the day; without one those of the plan.
     pub log: PathBuf,
+    /// Only the loss of this sensor is priced; without it that of every one.
+    pub without: Option<String>,
 }
 
 /// What a lever would leave.
@@ -51,6 +58,8 @@ pub struct LiveExpectDocument {
     pub axes: Vec<ExpectedAxis>,
     /// Each row of the log that was evaluated.
     pub times: Vec<ExpectedTime>,
+    /// What the loss of each sensor costs on that day.
+    pub losses: Vec<ExpectedLoss>,
     /// What no offset of an axis changes: the largest deviation of the tool axis over the day; null without rotary axes and
     /// angular errors.
     pub tool_axis_urad: Option<f64>,
@@ -113,6 +122,23 @@ impl Question for ExpectLive {
         let text = files.text(&self.log, "a log of temperatures (CSV)", problems)?;
         let log = TemperatureLog::parse(&self.log.display().to_string(), &text, problems)?;
         let plan = plan?;
+        if plan.control.takes_pose() {
+            let place = Place::whole(&self.plan.display().to_string());
+            let message =
+                "this control takes whole poses: there is no forecast of them yet".to_owned();
+            problems.error(
+                "live-no-forecast",
+                place,
+                message,
+                "trueaxis predict and compensate program compute the residual error of a pose",
+            );
+        }
+        let known = |name: &String| plan.sensors.iter().any(|s| s.settings.name == *name);
+        if let Some(name) = self.without.as_ref().filter(|name| !known(name)) {
+            let names: Vec<&str> = plan.sensors.iter().map(|s| s.settings.name.as_str()).collect();
+            let message = format!("the plan has no sensor `{name}`");
+            problems.error("unknown-word", Place::whole("--without"), message, &names.join(", "));
+        }
         for sensor in &plan.sensors {
             let column = column(sensor);
             if log.celsius(column).is_none() {
@@ -131,7 +157,7 @@ impl Question for ExpectLive {
         _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<LiveExpectAnswer> {
-        match expect(&plan, &log) {
+        match expect(&plan, &log, self.without.as_deref()) {
             Ok(found) => Some(LiveExpectAnswer(found)),
             Err(message) => {
                 let place = Place::whole(&self.plan.display().to_string());
@@ -147,12 +173,18 @@ impl Question for ExpectLive {
     }
 }
 
-fn column(sensor: &crate::file::SensorPlan) -> &str {
+fn column(sensor: &SensorPlan) -> &str {
     match &sensor.source {
         Source::Log { column, .. } => column,
         _ => &sensor.settings.input,
     }
 }
+
+/// Of each live axis at its places. Unit: mm or rad.
+type Offsets = Vec<Vec<f64>>;
+
+/// The column of the log that a sensor is read from.
+type Column<'a> = &'a dyn Fn(&SensorPlan) -> String;
 
 /// The errors of one axis over its travel at the temperatures of a row.
 struct Row {
@@ -165,25 +197,32 @@ struct Row {
 ///
 /// # Errors
 /// What the machine file says against it.
-pub fn expect(plan: &Plan, log: &TemperatureLog) -> Result<LiveExpectDocument, String> {
+pub fn expect(
+    plan: &Plan,
+    log: &TemperatureLog,
+    without: Option<&str>,
+) -> Result<LiveExpectDocument, String> {
     let model = model_of(plan);
     let places: Vec<Vec<f64>> =
         plan.axes.iter().map(|axis| places(&plan.machine, axis.axis)).collect();
     let step = log.times_s().len().div_ceil(MOST_ROWS).max(1);
     let mut found = Found::new(plan);
-    let (mut offsets, mut last): (Option<Vec<Vec<f64>>>, Option<Row>) = (None, None);
+    let mut rows: Vec<(usize, Row)> = Vec::new();
+    let mut all: Vec<Offsets> = Vec::new();
+    let own = |sensor: &SensorPlan| column(sensor).to_owned();
     for (i, time_s) in log.times_s().iter().enumerate().step_by(step) {
-        let row = row(plan, &model, (log, i), &places)?;
-        let sampled = last.as_ref().unwrap_or(&row);
-        let held = follow(plan, sampled, offsets.take());
+        let row = row(plan, &model, (log, i), (&places, &own))?;
+        let sampled = rows.last().map_or(&row, |(_, row)| row);
+        let held = follow(plan, sampled, all.last());
         found.add(plan, *time_s, (&row, sampled, &held), &places);
         found.others(plan, &row, &places)?;
-        offsets = Some(held);
-        last = Some(row);
+        all.push(held);
+        rows.push((i, row));
     }
-    let last = last.ok_or("the log has no row")?;
-    found.uncertainty(plan, &last, &places);
-    Ok(found.document(plan, log))
+    let (_, last) = rows.last().ok_or("the log has no row")?;
+    found.uncertainty(plan, last, &places);
+    let day = Day { plan, model: &model, log, places: &places, rows, held: all };
+    Ok(found.document(plan, log, day.losses(without)?))
 }
 
 fn model_of(plan: &Plan) -> Model {
@@ -212,10 +251,10 @@ fn row(
     plan: &Plan,
     model: &Model,
     (log, i): (&TemperatureLog, usize),
-    places: &[Vec<f64>],
+    (places, column): (&[Vec<f64>], Column<'_>),
 ) -> Result<Row, String> {
-    let reading = |s: &'_ crate::file::SensorPlan| {
-        let celsius = log.celsius(column(s)).and_then(|column| column.get(i));
+    let reading = |s: &SensorPlan| {
+        let celsius = log.celsius(&column(s)).and_then(|column| column.get(i));
         celsius.map(|celsius| (s.settings.input.clone(), *celsius))
     };
     let readings: Vec<(String, f64)> = plan.sensors.iter().filter_map(reading).collect();
@@ -233,13 +272,13 @@ fn row(
 }
 
 /// The offsets at all places, mm or rad: whole increments that follow with the dead band, within the limit.
-fn follow(plan: &Plan, sampled: &Row, before: Option<Vec<Vec<f64>>>) -> Vec<Vec<f64>> {
+fn follow(plan: &Plan, sampled: &Row, before: Option<&Offsets>) -> Offsets {
     let axis = |(live, errors): (usize, &Vec<f64>)| {
         let own = &plan.axes[live];
         let limit = f64::from(own.limits.limit);
         let one = |(i, error): (usize, &f64)| {
             let target = (-error / own.increment).clamp(-limit, limit);
-            let held = before.as_ref().map(|all| all[live][i] / own.increment);
+            let held = before.map(|all| all[live][i] / own.increment);
             let stays = held.filter(|held| (target - held).abs() < own.limits.dead_band.max(1.0));
             stays.unwrap_or_else(|| target.round()) * own.increment
         };
@@ -359,7 +398,12 @@ impl Found {
         }
     }
 
-    fn document(self, plan: &Plan, log: &TemperatureLog) -> LiveExpectDocument {
+    fn document(
+        self,
+        plan: &Plan,
+        log: &TemperatureLog,
+        losses: Vec<ExpectedLoss>,
+    ) -> LiveExpectDocument {
         let axis = |(live, worst): (usize, &Worst)| {
             let (own, scale) = (&plan.axes[live], shown(plan, live));
             let machine = &plan.machine.axes()[own.axis];
@@ -385,6 +429,7 @@ impl Found {
             log: log.file().to_owned(),
             axes: self.axes.iter().enumerate().map(axis).collect(),
             times: self.times,
+            losses,
             tool_axis_urad: (self.turned_rad > 0.0).then_some(self.turned_rad * 1e6),
             other_tip_um: self.other_mm * 1e3,
         }
@@ -457,5 +502,31 @@ impl Answer for LiveExpectAnswer {
                 Section::new("Largest errors over the day").table(Table::new(headings).rows(axes)),
             )
             .section(Section::new("What the plan must allow").table(Table::new(needs).rows(limits)))
+            .section(self.losses())
+    }
+}
+
+impl LiveExpectAnswer {
+    /// Largest errors of all axes, wherever on the day a sensor is lost.
+    fn losses(&self) -> Section<'_> {
+        let numbers = |values: &[f64]| {
+            let pairs = self.0.axes.iter().zip(values);
+            pairs
+                .map(|(axis, v)| format!("{} {}", axis.axis, fixed(*v, 1)))
+                .collect::<Vec<_>>()
+                .join(", ")
+        };
+        let rows = self.0.losses.iter().map(|loss| {
+            let then = loss
+                .instead
+                .as_ref()
+                .map_or_else(|| "hold".to_owned(), |name| format!("{name} stands in"));
+            let [ten, hour, rest] = [&loss.after_10_min, &loss.after_1_h, &loss.rest_of_day];
+            [loss.sensor.clone(), then, numbers(ten), numbers(hour), numbers(rest)]
+        });
+        let headings = ["sensor", "then", "after 10 min", "after 1 h", "rest of the day"];
+        let table =
+            Table::new(headings).rows(rows).note("µm and µrad; the largest errors of each axis.");
+        Section::new("What the loss of a sensor costs").table(table)
     }
 }

@@ -49,13 +49,22 @@ pub struct Plan {
 
 /// Reads a plan with all that it names.
 pub fn read_plan(files: &Files, path: &Path) -> (Option<Plan>, Diagnostics) {
+    read_for(files, path, false)
+}
+
+/// The same of a plan whose axes are yet to be commissioned.
+pub fn read_plan_to_commission(files: &Files, path: &Path) -> (Option<Plan>, Diagnostics) {
+    read_for(files, path, true)
+}
+
+fn read_for(files: &Files, path: &Path, commissions: bool) -> (Option<Plan>, Diagnostics) {
     let mut problems = Diagnostics::new();
     let Some(text) = files.text(path, "the plan of a live run (TOML)", &mut problems) else {
         return (None, problems);
     };
     let file = path.display().to_string();
     let source = SourceText::from(files, &file, &text);
-    let read = source.read(|root| read(root, path));
+    let read = source.read(|root| read(root, path, commissions));
     problems.append(source.finish());
     let plan = read.map(|mut plan| {
         plan.hash = hash(&[&text, &format!("{:?}", plan.machine)]);
@@ -73,7 +82,7 @@ fn hash(texts: &[&str]) -> String {
     format!("{sum:016x}")
 }
 
-fn read(root: &Section<'_>, path: &Path) -> Option<Plan> {
+fn read(root: &Section<'_>, path: &Path, commissions: bool) -> Option<Plan> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let name = root.text("name").map(str::to_owned);
     let machine = read_machine(root, folder);
@@ -87,7 +96,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Plan> {
         correction.unwrap_or((Compensation::Comprehensive, Part::Whole, false));
     check_of(root, &machine, of, without_part);
     let axes = axes::read_axes(root, &machine);
-    let control = control::read_control(root, &machine, &axes);
+    let control = control::read_control(root, &machine, (&axes, commissions));
     check_pose(root, &machine, of, control.as_ref());
     let pose = control.as_ref().is_some_and(ControlPlan::takes_pose);
     let sensors = sensors::read_sensors(root, folder, &machine, (&axes, of, pose));

@@ -14,6 +14,7 @@
 //! The only place of sockets to machines and of a clock. It computes no error: that is `trueaxis`.
 
 pub mod clock;
+pub mod commission;
 pub mod control;
 pub mod cycle;
 pub mod expect;
@@ -22,6 +23,7 @@ pub mod focas;
 pub mod governor;
 #[allow(unsafe_code, reason = "the library of LinuxCNC is C")]
 pub mod linuxcnc;
+pub mod metrics;
 pub mod mock;
 pub mod model;
 pub mod pose;

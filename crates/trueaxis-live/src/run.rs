@@ -84,6 +84,13 @@ impl<'a> Run<'a> {
         self
     }
 
+    /// The same with a constant in the place of the model's target: to commission an axis.
+    #[must_use]
+    pub fn with_target(mut self, offsets: Vec<f64>) -> Self {
+        self.correction = self.correction.with_target(offsets);
+        self
+    }
+
     /// Sensors, model and governor.
     pub fn correction(&self) -> &Correction {
         &self.correction

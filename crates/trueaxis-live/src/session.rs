@@ -7,6 +7,7 @@ use crate::file::{ControlPlan, Plan, read_plan};
 use crate::focas::TcpWire;
 use crate::governor::Owned;
 use crate::governor::{Order, State};
+use crate::metrics::prometheus;
 use crate::mock::MockServer;
 use crate::run::{Cycle, Run, Wish};
 use crate::start::{connect, connect_linuxcnc, mock_of, owner, sensors_of};
@@ -106,14 +107,18 @@ pub fn run_session(
 }
 
 /// A control that was opened and compared with the plan.
-struct Opened {
-    control: Box<dyn Control>,
-    identity: Identity,
+pub(crate) struct Opened {
+    pub control: Box<dyn Control>,
+    pub identity: Identity,
     /// What it holds of us, where the control itself says so.
-    held: Option<Owned>,
+    pub held: Option<Owned>,
 }
 
-fn open(plan: &Plan, mock: Option<&MockServer>, clock: &RealClock) -> Result<Opened, Diagnostics> {
+pub(crate) fn open(
+    plan: &Plan,
+    mock: Option<&MockServer>,
+    clock: &RealClock,
+) -> Result<Opened, Diagnostics> {
     match &plan.control {
         ControlPlan::Fanuc(fanuc) => {
             let own = mock.map(|server| server.address().to_string());
@@ -132,7 +137,7 @@ fn open(plan: &Plan, mock: Option<&MockServer>, clock: &RealClock) -> Result<Ope
 }
 
 /// The mock of a plan, on this computer.
-fn own_mock(plan: &Plan, tell: &dyn Fn(&str)) -> Result<Option<MockServer>, String> {
+pub(crate) fn own_mock(plan: &Plan, tell: &dyn Fn(&str)) -> Result<Option<MockServer>, String> {
     let Some(mock) = mock_of(plan) else { return Ok(None) };
     let server = MockServer::start(mock, OWN_ADDRESS)
         .map_err(|error| format!("the mock cannot start: {error}"))?;
@@ -140,7 +145,7 @@ fn own_mock(plan: &Plan, tell: &dyn Fn(&str)) -> Result<Option<MockServer>, Stri
     Ok(Some(server))
 }
 
-fn refused(
+pub(crate) fn refused(
     plan: &Plan,
     code: &'static str,
     message: &str,
@@ -156,7 +161,11 @@ fn refused(
     problems
 }
 
-fn unusable(folder: &Path, fault: &StoreFault, mut problems: Diagnostics) -> Diagnostics {
+pub(crate) fn unusable(
+    folder: &Path,
+    fault: &StoreFault,
+    mut problems: Diagnostics,
+) -> Diagnostics {
     let place = Place::whole(&folder.display().to_string());
     let message = fault.to_string();
     match fault {
@@ -197,12 +206,14 @@ fn drive(
     let mut confirmed = session.confirmed;
     // Since when the correction is no more wanted, s; and whether it has gone.
     let (mut ending, gone) = (None, std::cell::Cell::new(false));
+    let asked = std::cell::Cell::new(false);
     let mut last: Option<LiveState> = None;
     run.go(
         clock,
         plan.period_s,
         |now_s| {
-            let over = stopped() || session.for_s.is_some_and(|for_s| now_s >= for_s);
+            let over =
+                asked.get() || stopped() || session.for_s.is_some_and(|for_s| now_s >= for_s);
             if over && ending.is_none() {
                 ending = Some(now_s);
             }
@@ -230,6 +241,8 @@ fn drive(
                 }
                 // A state that cannot be shown does not end a run; the journal says so.
                 let _ = run.store().state(&status_json(plan, true, Some(state.clone())));
+                let _ = run.store().metrics(prometheus(&plan.name, &state));
+                asked.set(asked.get() || run.store().is_stop_asked());
                 last = Some(state);
             }
         },
@@ -241,7 +254,7 @@ fn drive(
     })
 }
 
-fn is_gone(cycle: &Cycle) -> bool {
+pub(crate) fn is_gone(cycle: &Cycle) -> bool {
     cycle.output.order.state == State::Off
 }
 

@@ -4,7 +4,7 @@ mod disk;
 mod latest;
 mod memory;
 
-pub use disk::{DiskStore, StoreFault, is_running, last_state, own_folder};
+pub use disk::{DiskStore, StoreFault, ask_stop, is_running, last_state, own_folder};
 pub use memory::{MemoryStore, Noted};
 
 use crate::control::Identity;
@@ -57,6 +57,19 @@ pub trait Store {
     /// # Errors
     /// What the disk says.
     fn state(&mut self, document: &serde_json::Value) -> Result<(), String>;
+
+    /// The same as metrics, for other programs.
+    ///
+    /// # Errors
+    /// What the disk says.
+    fn metrics(&mut self, _text: String) -> Result<(), String> {
+        Ok(())
+    }
+
+    /// Whether another process has asked for the end of this run.
+    fn is_stop_asked(&mut self) -> bool {
+        false
+    }
 
     /// One cycle, where a record is wanted.
     ///

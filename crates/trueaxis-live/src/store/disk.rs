@@ -1,4 +1,4 @@
-//! A store in a folder of its own: `lock`, `owned`, `journal.jsonl`, `state.json`.
+//! A store in a folder of its own: `lock`, `owned`, `journal.jsonl`, `state.json`, `metrics.prom`, `stop`.
 //!
 //! `owned` has two lines of fixed length that are written in turn, each with a number and a checksum: a run that is killed
 //! while it writes one leaves the other. The journal only grows by events, never by cycles.
@@ -14,6 +14,8 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+/// Its presence asks a run for its end.
+const STOP: &str = "stop";
 /// Of one line of `owned`.
 const LINE: usize = 2048;
 
@@ -41,6 +43,7 @@ pub struct DiskStore {
     journal: File,
     record: Option<BufWriter<File>>,
     state: Latest,
+    metrics: Latest,
     /// Held as long as the run lasts.
     _lock: File,
 }
@@ -70,6 +73,14 @@ pub fn own_folder(plan: &Path, machine: &str) -> Option<PathBuf> {
 pub fn is_running(folder: &Path) -> bool {
     let lock = File::open(folder.join("lock"));
     lock.is_ok_and(|file| matches!(file.try_lock(), Err(fs::TryLockError::WouldBlock)))
+}
+
+/// Asks a run for its end: it looks once a second.
+///
+/// # Errors
+/// What the disk says.
+pub fn ask_stop(folder: &Path) -> io::Result<()> {
+    File::create(folder.join(STOP)).map(drop)
 }
 
 /// The state that the last run has left.
@@ -118,6 +129,11 @@ impl DiskStore {
             Err(fs::TryLockError::WouldBlock) => return Err(StoreFault::Held),
             Err(fs::TryLockError::Error(error)) => return Err(error.into()),
         }
+        // What was asked of an earlier run.
+        match fs::remove_file(folder.join(STOP)) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error.into()),
+            _ => {}
+        }
         let mut owned = open("owned")?;
         let last = lines(&mut owned)?.into_iter().max_by_key(|line| line.number);
         if let Some(line) = last.as_ref().filter(|line| line.owner != *owner) {
@@ -139,6 +155,7 @@ impl DiskStore {
             journal,
             record: None,
             state: Latest::of(folder.join("state.json")),
+            metrics: Latest::of(folder.join("metrics.prom")),
             _lock: lock,
         };
         Ok((store, last.map(|line| line.owned)))
@@ -196,6 +213,14 @@ impl Store for DiskStore {
 
     fn state(&mut self, document: &Value) -> Result<(), String> {
         self.state.put(format!("{document:#}\n"))
+    }
+
+    fn metrics(&mut self, text: String) -> Result<(), String> {
+        self.metrics.put(text)
+    }
+
+    fn is_stop_asked(&mut self) -> bool {
+        self.folder.join(STOP).exists()
     }
 
     fn record(&mut self, input: &CycleInput, order: &Order) -> Result<(), String> {

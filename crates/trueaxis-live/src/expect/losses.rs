@@ -1,0 +1,112 @@
+//! What the loss of a sensor costs on the day of a forecast.
+//!
+//! ```text
+//!     it stands in for another: left(t, q) = e(t, q) + offset of the readings with the other one's value
+//!     else the run holds:       left(t + T, q) = e(t + T, q) + offset(t, q),  T up to 10 min, 1 h, the rest of the day
+//! ```
+
+use super::{Offsets, Row, column, follow, largest, row, shown};
+use crate::file::{Plan, SensorPlan};
+use crate::model::Model;
+use schemars::JsonSchema;
+use serde::Serialize;
+use trueaxis::machine::heat::TemperatureLog;
+
+const TEN_MINUTES_S: f64 = 600.0;
+const HOUR_S: f64 = 3600.0;
+
+/// The loss of one sensor. Errors are the largest over the day and the travel, whenever it is lost; in the order of the axes, in
+/// their units.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct ExpectedLoss {
+    /// The sensor of the plan.
+    pub sensor: String,
+    /// The sensor that stands in for it; null: the run holds.
+    pub instead: Option<String>,
+    /// Ten minutes after the loss. Unit: that of `unit`.
+    pub after_10_min: Vec<f64>,
+    /// An hour after it. Unit: that of `unit`.
+    pub after_1_h: Vec<f64>,
+    /// On the rest of the day. Unit: that of `unit`.
+    pub rest_of_day: Vec<f64>,
+}
+
+/// The rows of a day that were evaluated.
+pub(super) struct Day<'a> {
+    pub plan: &'a Plan,
+    pub model: &'a Model,
+    pub log: &'a TemperatureLog,
+    pub places: &'a [Vec<f64>],
+    /// The place of each row in the log, and what it came to.
+    pub rows: Vec<(usize, Row)>,
+    /// What stood in the control at each of them.
+    pub held: Vec<Offsets>,
+}
+
+impl Day<'_> {
+    /// The loss of every sensor, or of one.
+    pub fn losses(&self, without: Option<&str>) -> Result<Vec<ExpectedLoss>, String> {
+        let sensors = self.plan.sensors.iter();
+        let wanted = sensors.filter(|s| without.is_none_or(|name| name == s.settings.name));
+        let hold = self.hold();
+        wanted.map(|sensor| self.loss(sensor, &hold)).collect()
+    }
+
+    fn loss(&self, sensor: &SensorPlan, hold: &[Vec<f64>; 3]) -> Result<ExpectedLoss, String> {
+        let other = sensor.settings.instead.map(|i| &self.plan.sensors[i]);
+        let [after_10_min, after_1_h, rest_of_day] = match other {
+            Some(other) => {
+                let left = self.stands_in(sensor, other)?;
+                [left.clone(), left.clone(), left]
+            }
+            None => hold.clone(),
+        };
+        let instead = other.map(|other| other.settings.name.clone());
+        let sensor = sensor.settings.name.clone();
+        Ok(ExpectedLoss { sensor, instead, after_10_min, after_1_h, rest_of_day })
+    }
+
+    /// The offset stays as it is: largest errors up to each of three times.
+    fn hold(&self) -> [Vec<f64>; 3] {
+        let times = self.log.times_s();
+        [TEN_MINUTES_S, HOUR_S, f64::INFINITY].map(|most_s| {
+            let axis = |live: usize| {
+                let mut worst = 0.0f64;
+                for (i, (at, _)) in self.rows.iter().enumerate() {
+                    let held = &self.held[i][live];
+                    for (later, row) in &self.rows[i..] {
+                        if times[*later] - times[*at] > most_s {
+                            break;
+                        }
+                        let left = row.errors[live].iter().zip(held).map(|(e, h)| e + h);
+                        worst = worst.max(largest(left));
+                    }
+                }
+                worst * shown(self.plan, live)
+            };
+            (0..self.plan.axes.len()).map(axis).collect()
+        })
+    }
+
+    /// Another sensor takes its place.
+    fn stands_in(&self, lost: &SensorPlan, other: &SensorPlan) -> Result<Vec<f64>, String> {
+        let mut worst = vec![0.0f64; self.plan.axes.len()];
+        for (at, now) in &self.rows {
+            let swapped = |sensor: &SensorPlan| {
+                if sensor.settings.name == lost.settings.name {
+                    column(other)
+                } else {
+                    column(sensor)
+                }
+                .to_owned()
+            };
+            let read = row(self.plan, self.model, (self.log, *at), (self.places, &swapped))?;
+            let held = follow(self.plan, &read, None);
+            for (live, worst) in worst.iter_mut().enumerate() {
+                let left = now.errors[live].iter().zip(&held[live]).map(|(e, h)| e + h);
+                *worst = worst.max(largest(left) * shown(self.plan, live));
+            }
+        }
+        Ok(worst)
+    }
+}
