@@ -175,4 +175,11 @@ mod tests {
         assert!(found.is_interpolated);
         assert_eq!(found.values, [0.0, 4.0, 8.0]);
     }
+
+    #[test]
+    fn more_work_than_a_computer_has_time_for_is_refused() {
+        // 2 · 49 000 weights for each of 100 000 values: 10¹⁰ products
+        assert!(open(&vec![0.0; 100_000], 1.0, 49_000.0).is_none());
+        assert_eq!(open(&vec![0.0; 100_000], 1.0, 50.0).unwrap().1.len(), 99_950);
+    }
 }

@@ -200,4 +200,26 @@ proptest! {
             }
         }
     }
+
+    /// Two points opposite each other hold a circle that may go up or down between them: it goes to where there is more
+    /// room. About (0, −h) its radius is √(a² + h²) = d − h, so that h = (d² − a²)/2d.
+    #[test]
+    fn law_an_oval_holds_the_circle_of_its_wider_end(
+        turn in 0.0..TAU, near in 10.3..10.6f64, more in 0.02..0.2f64, count in 40usize..90,
+    ) {
+        let (a, far) = (10.0, near + more);
+        let mut points = vec![[a, 0.0], [-a, 0.0], [0.0, near], [0.0, -far]];
+        points.extend((0..count).map(|i| {
+            let angle = TAU * (i as f64 + 0.5) / count as f64;
+            [11.5 * angle.cos(), 11.5 * angle.sin()]
+        }));
+        let (sin, cos) = turn.sin_cos();
+        let points: Points =
+            points.iter().map(|p| [cos * p[0] - sin * p[1], sin * p[0] + cos * p[1]]).collect();
+        let h = (far * far - a * a) / (2.0 * far);
+        let found = Fitter::default().all(&points)?.mic;
+        prop_assert!((found.radius_mm - (far - h)).abs() < 1e-9, "{} not {}", found.radius_mm, far - h);
+        let centre = [h * sin, -h * cos];
+        prop_assert!((0..2).all(|i| (found.center_mm[i] - centre[i]).abs() < 1e-8), "{:?}", found);
+    }
 }

@@ -166,6 +166,20 @@ fn law_u_of_the_form_deviation_covers_the_true_one() {
     assert!(least_coverage_of_form(15).into_iter().all(|share| share >= 0.8));
 }
 
+/// The noise of many points makes a range of 2 · 4.4 u, more than that of the 2000 that are drawn from (2 · 3.4 u).
+#[test]
+fn law_u_of_the_form_deviation_covers_that_of_many_points_without_one() {
+    let points = noisy(&ideal(Element::Circle, 0.0, 100_000), 0.002, &mut SplitMix64::new(7));
+    let found = fit(Element::Circle, &points, &Known::default()).unwrap();
+    for (criterion, noise) in found.form_noise(&points, 0.002) {
+        let form_mm = found.reference(criterion).unwrap().form_mm();
+        assert!(
+            form_mm > 8.0 * 0.002 && form_mm <= noise.expanded_mm(2.0),
+            "{criterion:?}: {form_mm}"
+        );
+    }
+}
+
 /// `cargo nextest run -p trueaxis-form --run-ignored only -E 'test(hundreds)'` (1 min).
 #[test]
 #[ignore = "a minute"]

@@ -11,7 +11,7 @@ use trueaxis_machine::errors::{
     Component, Curve, ErrorIndex, ErrorKind, ErrorValues, Extrapolation, Interpolation, Rotation,
     SixErrors, Spline,
 };
-use trueaxis_machine::{ErrorModel, Machine, Squareness};
+use trueaxis_machine::{ErrorModel, Machine, Squareness, volume};
 
 /// All errors of all bodies: ±20 µm and ±100 µrad.
 fn random_errors(random: &mut Random, machine: &Machine) -> ErrorValues {
@@ -56,6 +56,27 @@ const MODELS: [ErrorModel; 4] = {
         ErrorModel { rotation: small, squareness: direction },
     ]
 };
+
+/// The corners first, then poses within the travel; every axis has as many on either side of its middle.
+#[test]
+fn law_the_volume_is_filled_evenly() {
+    for name in SHIPPED {
+        let machine = machine(name);
+        let (axes, count) = (machine.axes(), 300_u32);
+        let all = volume::commands(axes, count);
+        let corners = 1_usize << axes.len();
+        assert_eq!(all.len(), corners + count as usize);
+        for (i, axis) in axes.iter().enumerate() {
+            let at: Vec<f64> = all.iter().map(|command| command[i]).collect();
+            let (low, high) =
+                at.iter().fold((f64::MAX, f64::MIN), |r, q| (r.0.min(*q), r.1.max(*q)));
+            assert!(at.iter().all(|q| axis.travel.contains(*q)), "{name} {}", axis.name);
+            assert!(at[..corners].iter().all(|q| *q == low || *q == high), "{name} {}", axis.name);
+            let mean = at.iter().map(|q| (q - low) / (high - low)).sum::<f64>() / at.len() as f64;
+            assert!((mean - 0.5).abs() < 0.02, "{name} {}: {mean}", axis.name);
+        }
+    }
+}
 
 // ---------------------------------------------------------------- errors and deviations
 

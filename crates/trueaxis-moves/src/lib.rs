@@ -563,3 +563,21 @@ impl fmt::Display for Axis {
         write!(f, "{}", char::from(self.letter()))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_position_turns_about_z_counter_clockwise() {
+        // (2, 1) by 30°: 2 cos − 1 sin and 2 sin + 1 cos; the other axes stay.
+        let turned = Position([2.0, 1.0, 5.0, 0.0, 0.0, 0.0, 7.0, 0.0, 0.0]).turned(30.0);
+        let half_root = 0.75_f64.sqrt();
+        assert!((turned.0[0] - (2.0 * half_root - 0.5)).abs() < 1e-12, "{turned:?}");
+        assert!((turned.0[1] - (1.0 + half_root)).abs() < 1e-12, "{turned:?}");
+        assert_eq!((turned.0[2], turned.0[6]), (5.0, 7.0));
+        // A right angle leads X to Y.
+        let up = Position([3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]).turned(90.0);
+        assert!(up.0[0].abs() < 1e-12 && (up.0[1] - 3.0).abs() < 1e-12, "{up:?}");
+    }
+}

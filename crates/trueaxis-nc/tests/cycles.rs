@@ -137,6 +137,27 @@ fn rows_and_grids() {
     assert_eq!(outcome.problems.iter().next().unwrap().code, "not-applied");
 }
 
+/// A depth below the surface has no sign: DPR, and DP where _AMODE counts it from there.
+#[test]
+fn a_depth_below_the_surface_has_no_sign() {
+    for call in ["CYCLE81(10,3,2,,5)", "CYCLE81(10,3,2,5,,,,,1)", "CYCLE81(10,3,2,-5,,,,,1)"] {
+        let moves = sound(Control::Sinumerik840d, &format!("G0 X0 Y0 Z10 F100\n{call}\nM30\n"));
+        let lowest = moves.iter().map(|m| m.target[Axis::Z]).fold(f64::MAX, f64::min);
+        assert_eq!(lowest, -2.0, "{call}");
+    }
+}
+
+/// 10 turns at 120 a minute are 5 s.
+#[test]
+fn a_dwell_in_revolutions_takes_their_time() {
+    let moves = sound(Control::Sinumerik840d, "S120 M3\nG4 S10\nM30\n");
+    let seconds: Vec<f64> = moves
+        .iter()
+        .filter_map(|m| if let MoveKind::Dwell { seconds } = m.kind { Some(seconds) } else { None })
+        .collect();
+    assert_eq!(seconds, [5.0]);
+}
+
 /// The pecks of CYCLE83 by percent, by factor and by amount, and the chip breaking of its newer parameters.
 #[test]
 fn deep_holes_with_degression() {

@@ -265,3 +265,29 @@ proptest! {
         }
     }
 }
+
+/// CT to a place straight ahead is a line, whatever the direction; to one in the opposite direction nothing leads.
+#[test]
+fn a_tangential_circle_straight_ahead_is_a_line() {
+    for (way, from) in [(1.0, 10.0), (-1.0, 10.0), (1.0, -90.0), (-1.0, -90.0)] {
+        for axis in ["X", "Y"] {
+            let moved = |by: f64| format!("I{axis}{:+}", way * by);
+            let text =
+                |by: f64| format!("L X{from:+} Y{from:+} F9\nL {}\nCT {}\n", moved(5.0), moved(by));
+            let run = |text: String| {
+                let program = Program::new("p", text.into_bytes(), Control::Heidenhain);
+                let mut kinds = Vec::new();
+                let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |step| {
+                    if let Step::Move(m) = step {
+                        kinds.push(m.kind);
+                    }
+                });
+                (kinds, outcome.problems.iter().any(|p| p.code == "arc-does-not-fit"))
+            };
+            let (kinds, refused) = run(text(3.0));
+            assert!(!refused && kinds.len() == 3, "{}", text(3.0));
+            assert_eq!(kinds[2], kinds[1]);
+            assert!(run(text(-3.0)).1, "{}", text(-3.0));
+        }
+    }
+}

@@ -213,6 +213,20 @@ fn milling_cycles_in_other_planes_units_and_notations() {
     assert_same(&sound(SINUMERIK, many, 4.0), &sound(SINUMERIK, two, 4.0), many);
 }
 
+/// A surface that lies 5 mm higher, with the same depth below it: the same path 5 mm higher.
+#[test]
+fn law_a_higher_surface_has_the_same_path_higher() {
+    for call in sinumerik_calls(3.0, -4.0, 30.0) {
+        let head = "T1 D1 M6\nM3 F200\nG0 X3 Y-4 Z";
+        let higher = call.replace("(10,0,2,-7,", "(15,5,2,-2,").replace("(10,0,2,7,", "(15,5,2,7,");
+        let low = sound(SINUMERIK, &format!("{head}50\n{call}\nM30\n"), 4.0);
+        let high = sound(SINUMERIK, &format!("{head}55\n{higher}\nM30\n"), 4.0);
+        let down = |[x, y, z]: [f64; 3]| [x, y, z - 5.0];
+        let lowered = |p: &Piece| Piece { to: down(p.to), center: p.center.map(down), ..*p };
+        assert_same(&low, &high.iter().map(lowered).collect::<Vec<_>>(), &call);
+    }
+}
+
 /// The reach of the cutter at a height: X and Y from, to.
 fn reach(pieces: &[Piece], z: f64) -> [f64; 4] {
     let mut found = [f64::MAX, f64::MIN, f64::MAX, f64::MIN];
@@ -270,6 +284,10 @@ fn printed_spigots() {
     // 25 + 0.5 + 10 about X60 Y70; from 27.5 + 3 + 10. Conventional with M3: G3 around the spigot.
     assert_eq!(reach(&pieces, -20.0), [60.0 - 35.5, 60.0 + 40.5, 70.0, 70.0]);
     assert!(near(pieces.last().unwrap().to, [100.5, 70.0, 10.0]));
+    // The same with an allowance of 0.25 on the floor.
+    let pieces = sound(SINUMERIK, &text.replace(",0.5,0,900", ",0.5,0.25,900"), 10.0);
+    assert_eq!(reach(&pieces, -19.75), [60.0 - 35.5, 60.0 + 40.5, 70.0, 70.0]);
+    assert!(pieces.iter().all(|p| p.to[2] > -19.75 - 1e-9));
 }
 
 /// M20 x 2 by a cutter of 8: right-hand and climb rises from the bottom, by one helix or in steps of three pitches.

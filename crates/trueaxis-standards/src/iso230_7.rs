@@ -245,6 +245,21 @@ mod tests {
     }
 
     #[test]
+    fn a_fine_encoder_divides_a_revolution() {
+        // 720 readings a turn, two turns: three lobes of 2 µm have a synchronous error motion of 4 µm.
+        let mut text = "angle_deg,radial_um\n".to_owned();
+        for i in 0..1440 {
+            let degrees = 0.5 * f64::from(i);
+            text += &format!("{degrees},{}\n", 2.0 * (3.0 * degrees.to_radians()).cos());
+        }
+        let mut problems = Diagnostics::new();
+        let r = evaluate("s.csv", &text, &mut problems).unwrap();
+        assert_eq!((r.revolutions, r.left_out), (2, 0));
+        near(r.motions[0].synchronous_mm, 4.0);
+        near(r.motions[0].asynchronous_mm.unwrap(), 0.0);
+    }
+
+    #[test]
     fn the_rotating_direction_does_not_contain_the_eccentricity() {
         // A ball 8 µm off turns with the spindle; the probes are 3 and −2 µm off; the axis itself
         // moves 1 µm along x twice a turn.

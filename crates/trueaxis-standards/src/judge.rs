@@ -444,4 +444,40 @@ mod tests {
             assert_eq!(problems.iter().next().map(|d| d.code), Some(code), "{typed}");
         }
     }
+
+    #[test]
+    fn what_is_prescribed_is_expanded_by_two() {
+        // ISO/TR 230-9: U = 2 u
+        let known = prescribed(0.006);
+        assert_eq!((known.u, known.coverage_factor, known.expanded()), (0.003, 2.0, 0.006));
+    }
+
+    #[test]
+    fn f_of_both_senses_is_the_larger_and_the_smaller() {
+        // ccw an ellipse of ±3 µm, cw one of ±1 µm about +1 µm: F from 3 to −3 and from 2 to 0
+        let mut text = "x_mm,y_mm,direction\n".to_owned();
+        for (word, sign, middle, half) in [("ccw", 1.0, 0.0, 3e-3), ("cw", -1.0, 1e-3, 1e-3)] {
+            for i in 0..360 {
+                let a = sign * f64::from(i).to_radians();
+                let r = 100.0 + middle + half * (2.0 * a).cos();
+                text += &format!("{},{},{word}\n", r * a.cos(), r * a.sin());
+            }
+        }
+        let (centre_mm, radius_mm) = (Some([0.0; 2]), Some(100.0));
+        let nominal = crate::conditions::Circle { centre_mm, radius_mm, ..Default::default() };
+        let mut problems = Diagnostics::new();
+        let found = crate::iso230_4::evaluate("c.csv", &text, nominal, &mut problems).unwrap();
+        let all = figures(&Evaluated::Circular(Box::new(found)), &Conditions::default());
+        let of = |name: &str| all.iter().find(|f| f.name == name).unwrap().value;
+        for (name, mm) in [
+            ("F_ccw_max", 3e-3),
+            ("F_cw_max", 2e-3),
+            ("F_ccw_min", -3e-3),
+            ("F_cw_min", 0.0),
+            ("F_max", 3e-3),
+            ("F_min", -3e-3),
+        ] {
+            assert!((of(name) - mm).abs() < 2e-5, "{name}: {}", of(name));
+        }
+    }
 }

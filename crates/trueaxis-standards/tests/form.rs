@@ -88,6 +88,18 @@ fn a_filter_without_its_profile_is_refused() {
 }
 
 #[test]
+fn a_profile_shorter_than_the_cut_off_is_told_its_length() {
+    // 20 points are 19 steps.
+    let line: String = (0..20).map(|i| format!("{i},{}\n", 3 * (i % 2))).collect();
+    let text = format!("x_mm,z_um\n{line}");
+    let filter = Some(Filter::CutOff(19.5));
+    let mut problems = Diagnostics::new();
+    evaluate_form(&FormRequest { filter, ..request(Element::Line, &text) }, &mut problems);
+    let told = problems.iter().find(|d| d.code == "filter-points").unwrap();
+    assert!(told.message.contains("19.000 mm is not longer"), "{}", told.message);
+}
+
+#[test]
 fn uneven_points_are_filtered_with_a_warning() {
     let mut text = "x_mm,y_mm\n".to_owned();
     for i in 0..300 {

@@ -229,3 +229,22 @@ fn half_chord(radius: f64, distance: f64) -> Option<f64> {
     let square = radius * radius - distance * distance;
     (square > -1e-9 * radius * radius).then(|| square.max(0.0).sqrt())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_arcs_meet_where_both_circles_go_through() {
+        // 4² + 3² = 3² + 4² = 5², from (0, 0) and from (1, 7)
+        let arc = |center: Point| Stretch {
+            from: [center[0], center[1] - 5.0],
+            to: [center[0], center[1] + 5.0],
+            arc: Some((center, true)),
+        };
+        let mut found = arc([0.0, 0.0]).extended_to(&arc([1.0, 7.0])).map(Option::unwrap);
+        found.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        assert!(length(minus(found[0], [-3.0, 4.0])) < 1e-12, "{found:?}");
+        assert!(length(minus(found[1], [4.0, 3.0])) < 1e-12, "{found:?}");
+    }
+}

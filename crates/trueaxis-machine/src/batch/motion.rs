@@ -228,3 +228,22 @@ fn rows(parts: &[Part<'_>], knots: &Knots, sign: f64) -> Vec<Row> {
     };
     knots.ends().into_iter().zip(knots.about()).map(row).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_value_of_a_polynomial_is_beyond_its_bound() {
+        // ((2 · 5 + 1) · 5 + ½) at x = −5, 50 from the origin
+        let curve =
+            GeneralCurve::Polynomial { falling: vec![2.0, -1.0, 0.5], origin: 10.0, per_unit: 0.1 };
+        let general = General { component: 0, is_reversal: false, curve };
+        let range = Range { from: -40.0, to: 30.0 };
+        assert_eq!(general.bound(range), 55.5);
+        let value = |q: f64| ((q - 10.0) * 0.1).powi(2) * 2.0 - (q - 10.0) * 0.1 + 0.5;
+        assert_eq!(value(-40.0), 55.5);
+        assert!((0..=70).all(|k| value(f64::from(k) - 40.0).abs() <= 55.5));
+        assert_eq!(General { is_reversal: true, ..general }.bound(range), 27.75);
+    }
+}

@@ -512,6 +512,12 @@ mod tests {
         let jumps =
             rows(|i| format!("{i},{}\n", if i == 7 { 35.0 } else { 20.0 + 0.1 * i as f64 }));
         assert_eq!(codes(&format!("time_s,a_degC\n{jumps}")), ["jumping-sensor"]);
+        // In slow rows too, where the other steps are small; day and night are no jumps.
+        let slow =
+            rows(|i| format!("{},{}\n", 10 * i, if i < 7 { 20.0 } else { 35.0 } + 0.1 * i as f64));
+        assert_eq!(codes(&format!("time_min,a_degC\n{slow}")), ["jumping-sensor"]);
+        let nights = rows(|i| format!("{},{}\n", 720 * i, 18 + 7 * (i % 2)));
+        assert!(codes(&format!("time_min,a_degC\n{nights}")).is_empty());
         // 3 K are a jump in 1 s, not in 10 min.
         assert_eq!(codes("time_s,a_degC\n0,20\n1,23\n"), ["jumping-sensor"]);
         assert!(codes("time_min,a_degC\n0,20\n10,23\n").is_empty());

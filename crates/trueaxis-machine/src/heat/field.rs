@@ -348,4 +348,14 @@ mod tests {
         let extra = field.integral(100.0, 5000.0, 26.0);
         assert!((extra - 240.0 * PI.sqrt()).abs() < 1e-10);
     }
+
+    #[test]
+    fn a_scale_without_heat_is_as_warm_as_at_first() {
+        let (initial_celsius, sources) = (25.0, Vec::new());
+        let field = ScaleField { initial_celsius, diffusivity_mm2_per_s: 4.0, sources };
+        assert_eq!(field.celsius_at(200.0, 60.0), 25.0);
+        // 5 K over 200 mm
+        assert_eq!(field.integral(60.0, [100.0, 300.0], 20.0), 1000.0);
+        assert_eq!(field.integral(60.0, [300.0, 100.0], 20.0), -1000.0);
+    }
 }

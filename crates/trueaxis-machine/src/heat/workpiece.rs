@@ -142,6 +142,10 @@ mod tests {
         // A tenth of α_w is a tenth of the growth.
         let u = growth.u_at(Vec3::new(1000.0, 200.0, 0.0));
         assert!((u - Vec3::new(0.005, 0.002, 0.0)).norm() < 1e-15);
+        // Fixed at x500 y100: along 1e-5 · (1000² − 500²)/200 K·mm, across 1e-5 · 10 K · 200 mm
+        let fixed = WorkpieceGrowth { fixed_mm: Vec3::new(500.0, 100.0, 0.0), ..growth };
+        let grown = fixed.at(Vec3::new(1000.0, 300.0, 0.0));
+        assert!((grown - Vec3::new(0.0375, 0.02, 0.0)).norm() < 1e-15);
     }
 
     #[test]
