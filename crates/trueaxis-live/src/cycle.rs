@@ -40,7 +40,13 @@ pub struct CycleOutput {
     pub target: Option<Target>,
     /// The program's position, where there is a link. Unit: mm or rad.
     pub programmed: Option<Command>,
+    /// How far each offset is late while the target moves: its rate × the age of the position, in increments; none without two
+    /// targets. Unit: counts.
+    pub lag: Option<Vec<f64>>,
 }
+
+/// A position that is read is so many periods old when what follows from it acts: one until the next cycle, one under way.
+pub const AGE_PERIODS: f64 = 2.0;
 
 /// Sensors, model and governor of a run.
 #[derive(Debug, Clone)]
@@ -50,6 +56,9 @@ pub struct Correction {
     governor: Governor,
     last_s: Option<f64>,
     constant: Option<Vec<f64>>,
+    /// The target of the last cycle, in increments, and the frame that it is of.
+    before: Option<(Frame, Vec<f64>)>,
+    period_s: f64,
 }
 
 impl Correction {
@@ -73,6 +82,8 @@ impl Correction {
             governor: Governor::new(plan.settings.clone(), owned),
             last_s: None,
             constant: None,
+            before: None,
+            period_s: plan.period_s,
         }
     }
 
@@ -128,7 +139,17 @@ impl Correction {
                 journal_fails: input.journal_fails,
             },
         );
-        CycleOutput { order, sensors, target: target.ok(), programmed }
+        let lag = self.lag(dt_s, (frame, target.as_ref().ok()));
+        CycleOutput { order, sensors, target: target.ok(), programmed, lag }
+    }
+
+    fn lag(&mut self, dt_s: f64, (frame, target): (Frame, Option<&Target>)) -> Option<Vec<f64>> {
+        let now = target.map(|target| (frame, target.offsets.clone()));
+        let before = std::mem::replace(&mut self.before, now);
+        let (then, now) = (before?, self.before.as_ref()?);
+        let age_s = AGE_PERIODS * self.period_s;
+        let late = |(a, b): (&f64, &f64)| (b - a).abs() / dt_s * age_s;
+        (then.0 == now.0 && dt_s > 0.0).then(|| then.1.iter().zip(&now.1).map(late).collect())
     }
 
     /// The position of the program: that of the machine without the offset that acts.

@@ -10,6 +10,7 @@ mod losses;
 
 pub use losses::ExpectedLoss;
 
+use crate::cycle::AGE_PERIODS;
 use crate::file::{Plan, SensorPlan, Source, read_plan};
 use crate::model::{LiveAxis, Model, at};
 use losses::Day;
@@ -30,8 +31,6 @@ use trueaxis_report::{Report, Section, Table, document};
 const PLACES: f64 = 20.0;
 /// Rows of the log that are evaluated, at most.
 const MOST_ROWS: usize = 500;
-/// A position that is read is so many periods old when what follows from it acts: one until the next cycle, one under way.
-const PERIODS: f64 = 2.0;
 
 /// A forecast.
 #[derive(Debug, Clone)]
@@ -415,7 +414,7 @@ impl Found {
                 after: worst.after * scale,
                 by_age: worst.by_age * scale,
                 by_increment: worst.by_increment * scale,
-                moving: speed.map(|v| v * worst.slope * PERIODS * plan.period_s * scale),
+                moving: speed.map(|v| v * worst.slope * AGE_PERIODS * plan.period_s * scale),
                 needed_per_s: speed.map(|v| v * worst.slope * scale),
                 slew_per_s: own.limits.slew_per_s * own.increment * scale,
                 needed: worst.needed * scale,

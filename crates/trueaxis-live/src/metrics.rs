@@ -53,10 +53,11 @@ pub fn prometheus(plan: &str, state: &LiveState) -> String {
     let counted = |number: u64| number as f64;
     page.value("timestamp_seconds", &[], counted(state.date_s));
     type Of = fn(&crate::status::LiveAxisEntry) -> Option<f64>;
-    let of_axes: [(&str, &str, Of); 4] = [
+    let of_axes: [(&str, &str, Of); 5] = [
         ("offset", "offset that the control holds, um or urad", |a| a.offset),
         ("own", "part of the offset that this program has written, um or urad", |a| Some(a.own)),
         ("target", "where the offset goes, um or urad", |a| a.target),
+        ("lag", "how far the offset is late by the age of the position, um or urad", |a| a.lag),
         ("limit", "limit of the offset, um or urad", |a| Some(a.limit)),
     ];
     for (name, help, of) in of_axes {

@@ -11,7 +11,7 @@ use crate::metrics::prometheus;
 use crate::mock::MockServer;
 use crate::run::{Cycle, Run, Wish};
 use crate::start::{connect, connect_linuxcnc, mock_of, owner, sensors_of};
-use crate::status::{LiveState, folder_of, live_state, status_json};
+use crate::status::{LiveState, folder_of, is_lagging, live_state, status_json};
 use crate::store::{DiskStore, StoreFault};
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -229,6 +229,7 @@ fn drive(
                 cycle.input.now_s - last.time_s >= STATE_S
                     || last.state != order.state
                     || !last.cause.is_like(&order.reason)
+                    || last.lagging != is_lagging(plan, cycle)
             });
             if due || gone.get() {
                 let state = live_state(plan, identity, cycle, &own, run.counts());
@@ -238,6 +239,9 @@ fn drive(
                 });
                 if !same {
                     tell(&line);
+                }
+                if state.lagging && last.as_ref().is_none_or(|last| !last.lagging) {
+                    tell(&late(plan, &state));
                 }
                 // A state that cannot be shown does not end a run; the journal says so.
                 let _ = run.store().state(&status_json(plan, true, Some(state.clone())));
@@ -256,6 +260,19 @@ fn drive(
 
 pub(crate) fn is_gone(cycle: &Cycle) -> bool {
     cycle.output.order.state == State::Off
+}
+
+/// Which offsets are late, and by how much.
+fn late(plan: &Plan, state: &LiveState) -> String {
+    let axes = state.axes.iter().zip(&plan.axes).filter(|(_, plan)| plan.lag.is_some());
+    let each =
+        axes.map(|(axis, _)| format!("{} {:.1} {}", axis.axis, axis.lag.unwrap_or(0.0), axis.unit));
+    let each: Vec<String> = each.collect();
+    format!(
+        "{:8.1} s  the offsets are late: {}; feed less, or a shorter period",
+        state.time_s,
+        each.join(", ")
+    )
 }
 
 /// What a replay has shown.

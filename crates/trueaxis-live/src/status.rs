@@ -56,6 +56,9 @@ pub struct LiveState {
     pub feed_mm_per_min: Option<f64>,
     /// An axis has used four fifths of its limit.
     pub near_limit: bool,
+    /// An offset is late by more than the `lag` of its axis: the feed is too fast for the period.
+    #[serde(default)]
+    pub lagging: bool,
     /// An axis stands outside its travel: its error is that of the end.
     pub outside_travel: bool,
     /// Cycles so far.
@@ -87,6 +90,10 @@ pub struct LiveAxisEntry {
     pub target: Option<f64>,
     /// Its limit. Unit: that of `unit`.
     pub limit: f64,
+    /// How far the offset is late, because the target moves and the position is two periods old; null without two targets.
+    /// Unit: that of `unit`.
+    #[serde(default)]
+    pub lag: Option<f64>,
 }
 
 /// One sensor.
@@ -136,6 +143,7 @@ pub fn live_state(
             own: own.get(i).map_or(0.0, |n| f64::from(*n) * scale),
             target: cycle.output.target.as_ref().and_then(|t| t.offsets.get(i)).map(|t| t * scale),
             limit: f64::from(axis.limits.limit) * scale,
+            lag: cycle.output.lag.as_ref().and_then(|lag| lag.get(i)).map(|lag| lag * scale),
         }
     });
     let sensors =
@@ -160,12 +168,19 @@ pub fn live_state(
         sensors: sensors.collect(),
         feed_mm_per_min: seen.map(|seen| seen.feed_mm_per_min),
         near_limit: order.near_limit,
+        lagging: is_lagging(plan, cycle),
         outside_travel: cycle.output.target.as_ref().is_some_and(|t| t.is_clamped),
         cycles: counts.cycles,
         missed: counts.missed,
         writes: counts.writes,
         failed_writes: counts.failed,
     }
+}
+
+/// Whether an offset is late by more than its plan allows.
+pub fn is_lagging(plan: &Plan, cycle: &Cycle) -> bool {
+    let lags = cycle.output.lag.iter().flatten().zip(&plan.axes);
+    lags.into_iter().any(|(lag, axis)| axis.lag.is_some_and(|most| lag * axis.increment > most))
 }
 
 /// The document of a run, going on or ended.
@@ -264,11 +279,13 @@ pub fn state_report<'a>(report: Report<'a>, last: &LiveState) -> Report<'a> {
             shown(axis.offset, 1),
             shown(axis.acting, 1),
             shown(axis.target, 1),
+            shown(axis.lag, 1),
             fixed(axis.limit, 0),
             unit.to_owned(),
         ]
     });
-    let headings = ["axis", "position, mm or deg", "offset", "acts", "target", "limit", ""];
+    let headings =
+        ["axis", "position, mm or deg", "offset", "acts", "target", "late by", "limit", ""];
     let sensors = last.sensors.iter().map(|sensor| {
         let fault = match (&sensor.fault, &sensor.instead) {
             (Some(fault), _) => fault.clone(),

@@ -18,6 +18,7 @@ use trueaxis_live::linuxcnc::{Layout, LinuxCnc, Pins};
 use trueaxis_live::pose::{Frame, PoseCorrection, World};
 use trueaxis_live::run::{Cycle, Run, Wish};
 use trueaxis_live::start::{linuxcnc_settings, sensors_of};
+use trueaxis_live::status::is_lagging;
 use trueaxis_live::store::MemoryStore;
 
 /// Pins by name, and what trueaxis.hal makes of the offsets: gate, ramp, watchdog.
@@ -328,4 +329,30 @@ fn a_pivot_that_is_elsewhere_is_noticed_and_a_servo_thread_that_ends() {
         "{}",
         order.reason
     );
+}
+
+/// X moves by 0.1 mm a cycle: what is late is the rate of the target times two periods, and what is late by more than the plan
+/// allows is an alarm.
+#[test]
+fn an_offset_that_is_late_says_so() {
+    let mut rig = Rig::new();
+    rig.cycles(500);
+    let mut last = 0.0;
+    for _ in 0..50 {
+        rig.bench.borrow_mut().program[2] += 0.1;
+        let output = &rig.cycles(1).output;
+        let now = output.target.as_ref().unwrap().offsets[0];
+        let lag = output.lag.as_ref().unwrap()[0];
+        assert!(last == 0.0 || (lag - 2.0 * (now - last).abs()).abs() < 1e-6, "{lag} {now} {last}");
+        last = now;
+    }
+    let cycle = rig.last.clone().unwrap();
+    // EXX at 45 mm rises by 0.12 − 0.10 · 0.45 = 0.075 um/mm: 7.5 nm a cycle, 15 nm in two. The other errors add as much.
+    let lag_nm = cycle.output.lag.as_ref().unwrap()[0];
+    assert!((5.0..50.0).contains(&lag_nm), "{lag_nm}");
+    let mut plan = rig.plan.clone();
+    for (most_mm, alarm) in [(None, false), (Some(1e-6), true), (Some(1e-3), false)] {
+        plan.axes[0].lag = most_mm;
+        assert_eq!(is_lagging(&plan, &cycle), alarm, "{most_mm:?}");
+    }
 }

@@ -21,6 +21,8 @@ pub struct AxisPlan {
     pub limits: AxisLimits,
     /// What was measured when an offset was written.
     pub commissioned: Option<Commissioned>,
+    /// An offset that is late by more than this is an alarm; none by default. Unit: mm or rad.
+    pub lag: Option<f64>,
 }
 
 /// Evidence that sign and scale are right.
@@ -79,6 +81,7 @@ fn read_axis(section: &Section<'_>, machine: &Machine, axis: usize) -> Option<Ax
     let hint = if is_linear { "increment = \"1 um\"" } else { "increment = \"0.0001 deg\"" };
     let increment = section.require("increment", hint).and_then(|item| item.unjudged(length));
     let sign = read_sign(section);
+    let lag = section.get("lag").and_then(|item| item.unjudged(length));
     let commissioned = section.section("commissioned", |s| read_commissioned(s, length)).flatten();
     let mut values = Vec::new();
     for (key, linear, rotary) in LIMITS {
@@ -123,7 +126,7 @@ fn read_axis(section: &Section<'_>, machine: &Machine, axis: usize) -> Option<Ax
     if let Some(evidence) = &commissioned {
         check_commissioned(section, &name, evidence, sign);
     }
-    Some(AxisPlan { axis, name, increment, sign, limits, commissioned })
+    Some(AxisPlan { axis, name, increment, sign, limits, commissioned, lag })
 }
 
 fn read_sign(section: &Section<'_>) -> f64 {
