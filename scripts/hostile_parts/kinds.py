@@ -4,7 +4,7 @@ import re
 import struct
 import subprocess
 
-FOLDERS = ("01_describe", "02_simulate", "03_predict", "04_plan", "05_identify", "06_compensate", "07_verify")
+FOLDERS = ("01_describe", "02_simulate", "03_predict", "04_plan", "05_identify", "06_compensate", "07_verify", "08_live")
 I5, XKAS, MILL = "machines/i5-engraver/machine.toml", "machines/xkas2525/machine.toml", "machines/three-axis-mill/machine.toml"
 GANTRY = "machines/gantry-001/machine.toml"
 
@@ -111,6 +111,9 @@ KINDS = [
     ("import, QIF", "made/circles.qif", "evaluate iso230-4 made/circles.qif --feature bore"),
     ("import, ECMC", "made/report.md", "evaluate iso230-2 made/report.md"),
     ("import, Renishaw", "made/laser.rtl", "evaluate iso230-2 made/laser.rtl"),
+    ("plan of a live run", "08/gantry-mock.toml", "live expect 08/gantry-mock.toml --temperature-log 03/torque-arm-hall.csv"),
+    ("plan of a live run, LinuxCNC", "08/linuxcnc/xyzac-live.toml", "live status 08/linuxcnc/xyzac-live.toml"),
+    ("log of a live day", "03/torque-arm-hall.csv", "live expect 08/gantry-mock.toml --temperature-log 03/torque-arm-hall.csv"),
 ]
 
 RTL = (

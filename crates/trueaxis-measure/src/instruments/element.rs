@@ -204,6 +204,24 @@ mod tests {
     }
 
     #[test]
+    fn law_points_of_a_cylinder_and_a_sphere_fill_them_evenly() {
+        // Fractions of the golden section leave no gap larger than 2/n, and go all the way round.
+        let (count, n) = (34, Vec3::new(0.3, -0.5, 0.8).normalize());
+        for (element, from, to) in [(Element::Cylinder, -50.0, 50.0), (Element::Sphere, 0.0, 40.0)]
+        {
+            let points = element.points_mm(count, n, 40.0, [100.0, 60.0]);
+            let mut heights: Vec<f64> = points.iter().map(|p| n.dot(p)).collect();
+            heights.extend([from, to]);
+            heights.sort_by(f64::total_cmp);
+            assert_eq!((heights[0], heights[count + 1]), (from, to), "{element:?}");
+            let gaps = heights.windows(2).map(|pair| pair[1] - pair[0]);
+            assert!(gaps.fold(0.0, f64::max) <= 2.0 / count as f64 * (to - from), "{element:?}");
+            let aside: Vec3 = points.iter().map(|p| p - n * n.dot(p)).sum();
+            assert!(aside.norm() / (count as f64) < 0.05 * 40.0, "{element:?}: {aside}");
+        }
+    }
+
+    #[test]
     fn law_a_frame_is_found_from_its_points() {
         let axis = nalgebra::Rotation3::from_euler_angles(0.7, -1.9, 2.6);
         let shift = Vec3::new(1200.0, -340.0, 55.0);

@@ -352,4 +352,22 @@ mod tests {
     fn the_jerk_terms_are_not_largest_together() {
         assert!((jerk_of_curvature(0.6, 0.4) - 0.625).abs() < 1e-15);
     }
+
+    /// A blend begins and ends with nothing, and each derivative is the slope of the one before.
+    #[test]
+    fn law_the_derivatives_of_a_blend_are_slopes() {
+        let (d, h) = (0.8, 1e-6);
+        for curve in 0..2 {
+            let at = |x: f64| rounding(d, x)[curve];
+            for x in [-0.79, -0.61, -0.33, -0.07, 0.05, 0.31, 0.59, 0.78] {
+                for k in 0..3 {
+                    let slope = (at(x + h)[k] - at(x - h)[k]) / (2.0 * h);
+                    assert!((slope - at(x)[k + 1]).abs() < 1e-5, "{curve} {x} {k}: {slope}");
+                }
+            }
+            for end in [-d + 1e-9, d - 1e-9] {
+                assert!(at(end)[..2].iter().all(|v| v.abs() < 1e-6), "{curve} {end}");
+            }
+        }
+    }
 }

@@ -196,6 +196,11 @@ mod tests {
         assert!((stamp(smooth, 5.0 / 18.0 * 3.0 / 16.0) - 1.0 / 60.0).abs() < 1e-14);
         let peak = smooth.phases().expect("a block").peak_acceleration();
         assert!((peak - 750.0).abs() < 1e-9);
+        // At F from the begin it only slows down, and the other way round.
+        for (start, end) in [(smooth.feed, 0.0), (0.0, smooth.feed)] {
+            let one = Block { start, end, ..smooth }.phases().expect("a block");
+            assert!((one.peak_acceleration() - 750.0).abs() < 1e-9);
+        }
         let all: Vec<f64> = constant.phases().expect("a block").stamps_s(4).collect();
         assert!(all.len() == 5 && (all[2] - 19.0 / 60.0).abs() < 1e-14);
     }

@@ -90,3 +90,18 @@ fn time_s(stretches: &[Stretch]) -> f64 {
     }
     time_s
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// From rest to rest over 4 mm with 1 mm/s²: 2 √(4/1) = 4 s, wherever it is cut.
+    #[test]
+    fn law_a_stretch_in_two_takes_as_long() {
+        let bounds = Bounds { v: 100.0, a: 1.0, j: 1.0 };
+        for cut in [0.5, 1.0, 2.0, 3.0, 3.9] {
+            let parts = [cut, 4.0 - cut].map(|length| Stretch { length, bounds });
+            assert!((time_s(&parts) - 4.0).abs() < 1e-12, "{cut}: {}", time_s(&parts));
+        }
+    }
+}
