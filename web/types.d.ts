@@ -7874,6 +7874,10 @@ export interface LiveState {
    */
   near_limit: boolean;
   /**
+   * An offset is late by more than the `lag` of its axis: the feed is too fast for the period.
+   */
+  lagging: boolean;
+  /**
    * An axis stands outside its travel: its error is that of the end.
    */
   outside_travel: boolean;
@@ -7930,6 +7934,11 @@ export interface LiveAxisEntry {
    * Its limit. Unit: that of `unit`.
    */
   limit: number;
+  /**
+   * How far the offset is late, because the target moves and the position is two periods old; null without two targets.
+   * Unit: that of `unit`.
+   */
+  lag: number | null;
 }
 /**
  * One sensor.
