@@ -273,7 +273,9 @@ fn absurd(value: &Value, key: &str, place: &str) -> Option<(String, f64)> {
         Value::Number(number) => {
             let number = number.as_f64()?;
             let limits = BELIEVED.iter().filter(|(ending, _)| key.ends_with(ending));
-            let beyond = limits.map(|(_, most)| *most).any(|most| number.abs() > most);
+            // An uncertainty is an error too, also in mm.
+            let of_u = (key.starts_with("u_") && key.ends_with("_mm")).then_some(1e3);
+            let beyond = limits.map(|(_, most)| *most).chain(of_u).any(|most| number.abs() > most);
             beyond.then(|| (place.to_owned(), number))
         }
         Value::Array(list) => list.iter().enumerate().find_map(|(i, entry)| {
