@@ -156,8 +156,7 @@ fn law_spoiled_files_are_refused() {
             if target == Target::Fanuc && n != 1 {
                 continue; // A grid takes its time, and one machine is enough for its file.
             }
-            // Coarse tables are spoiled as fine ones are, and made in a fraction of the time.
-            let order = Order { bound_mm: 12e-3, bound_rad: 6e-5, ..Order::of(target) };
+            let order = Order { bound_mm: 4e-3, bound_rad: 2e-5, ..Order::of(target) };
             let compiled = compile(&machine, &order).unwrap();
             let control = target.control();
             let meant = compiled.content().sorted();
