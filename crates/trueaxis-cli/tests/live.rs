@@ -158,6 +158,40 @@ fn the_loss_of_a_sensor_has_its_price() {
     assert!(status == 2 && err.contains("the plan has no sensor `hall`"), "{err}");
 }
 
+/// The run holds what followed from the row before the loss; until the end the hall warms scale and workpiece:
+/// 10.8 · 3.5 µm/K · ΔT of the scale − 13.2 · 3.5 µm/K · ΔT of the workpiece at the end of X. Computed from the log alone; whole
+/// increments and the dead band add less than a micrometre.
+#[test]
+fn law_a_lost_sensor_costs_what_the_hall_does_meanwhile() {
+    let folder = Folder::new("live-loss-law");
+    let log = "examples/03_predict/torque-arm-hall.csv";
+    let document =
+        json(&ran(&folder, &["expect", PLAN, "--temperature-log", log, "--format", "json"]).1);
+    let text = std::fs::read_to_string(root().join(log)).expect("the log");
+    let rows = text.lines().filter(|line| line.starts_with(|c: char| c.is_ascii_digit()));
+    let rows: Vec<Vec<f64>> =
+        rows.map(|r| r.split(',').map(|c| c.parse().expect("a number")).collect()).collect();
+    // min, scale_x, scale_y, scale_z, workpiece.
+    let end_um = |row: &[f64]| 10.8 * 3.5 * row[1] - 13.2 * 3.5 * row[4];
+    let worst = |most_min: f64| {
+        let mut worst = 0.0f64;
+        for (i, now) in rows.iter().enumerate() {
+            let sampled = &rows[i.saturating_sub(1)];
+            let later = rows[i..].iter().take_while(|row| row[0] - now[0] <= most_min);
+            later.for_each(|row| worst = worst.max((end_um(row) - end_um(sampled)).abs()));
+        }
+        worst
+    };
+    for (key, most_min) in [("after_10_min", 10.0), ("after_1_h", 60.0), ("rest_of_day", 1e9)] {
+        let found = document["losses"][0][key][0].as_f64().expect("a number");
+        assert!(
+            (found - worst(most_min)).abs() < 1.0,
+            "{key}: {found}, by hand {}",
+            worst(most_min)
+        );
+    }
+}
+
 /// Every line of the text format of Prometheus that is no comment: name, labels, value.
 fn metrics(text: &str) -> Vec<(String, f64)> {
     let samples = text.lines().filter(|line| !line.starts_with('#'));
@@ -215,7 +249,7 @@ fn an_axis_is_commissioned_at_an_indicator() {
     use std::io::Write;
     let folder = Folder::new("live-commission");
     let answer = |words: &[&str], reading: &str| {
-        let all = [&["commission", PLAN], words].concat();
+        let all = [&["commission"], words].concat();
         let mut command = live(&folder, &all);
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().expect("it starts");
@@ -224,8 +258,10 @@ fn an_axis_is_commissioned_at_an_indicator() {
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
         (done.status.code(), text(done.stdout), text(done.stderr))
     };
-    let (status, out, err) =
-        answer(&["--axis", "X", "--by", "20 um", "--evidence", "N.N., gauge"], "about\n19.6 um\n");
+    let (status, out, err) = answer(
+        &[PLAN, "--axis", "X", "--by", "20 um", "--evidence", "N.N., gauge"],
+        "about\n19.6 um\n",
+    );
     assert_eq!(status, Some(0), "{out}{err}");
     assert!(out.contains("commissioned = { wrote = \"20.000 um\", measured = \"19.600 um\", evidence = \"N.N., gauge\" }"), "{out}");
     assert!(
@@ -235,21 +271,39 @@ fn an_axis_is_commissioned_at_an_indicator() {
     for (reading, words) in
         [("-20 um\n", "near -1 it is the sign"), ("508 um\n", "near 25.4 inches")]
     {
-        let (status, out, _) = answer(&["--axis", "Y", "--by", "20 um"], reading);
+        let (status, out, _) = answer(&[PLAN, "--axis", "Y", "--by", "20 um"], reading);
         assert!(status == Some(1) && out.contains(words), "{out}");
     }
-    let (status, out, err) = answer(&["--axis", "X"], "\n");
+    let (status, out, err) = answer(&[PLAN, "--axis", "X"], "\n");
     assert!(
         status == Some(1) && out.is_empty() && err.contains("no reading: nothing is proved"),
         "{err}"
     );
     for (words, code) in [
-        (&["--axis", "Z"][..], "unknown-axis"),
-        (&["--axis", "X", "--by", "0.5 um"], "live-limit"),
-        (&["--axis", "X", "--by", "2 mm"], "live-limit"),
-        (&["--axis", "X", "--by", "ten"], "live-limit"),
+        (&[PLAN, "--axis", "Z"][..], "unknown-axis"),
+        (&[PLAN, "--axis", "X", "--by", "0.5 um"], "live-limit"),
+        (&[PLAN, "--axis", "X", "--by", "2 mm"], "live-limit"),
+        (&[PLAN, "--axis", "X", "--by", "ten"], "live-limit"),
     ] {
         let (status, _, err) = answer(words, "");
         assert!(status == Some(2) && err.contains(code), "{words:?}: {err}");
     }
+    // A control whose larger offset moves the tool against the axis: +20 µm shows -20, and the line is right for its plan.
+    let text = std::fs::read_to_string(root().join(PLAN)).expect("the plan");
+    let text = text
+        .replace("../../machines", &root().join("machines").display().to_string())
+        .replace("../03_predict", &root().join("examples/03_predict").display().to_string());
+    let of_x =
+        |more: &str| text.replacen("[axis.X]\n", &format!("[axis.X]\nsign = -1\n{more}\n"), 1);
+    let plan = folder.file("against.toml", of_x(""));
+    let (status, out, err) = answer(&[&plan, "--axis", "X", "--by", "20 um"], "-20 um\n");
+    assert!(status == Some(0) && out.starts_with("1.00 of"), "{out}{err}");
+    let line = out.lines().find(|line| line.starts_with("commissioned")).expect("the line");
+    let plan = folder.file("against.toml", of_x(line));
+    let (status, _, err) = ran(&folder, &["status", &plan]);
+    assert_eq!(status, 0, "{err}");
+    assert_eq!(answer(&[&plan, "--axis", "X", "--by", "20 um"], "20 um\n").0, Some(1));
+    let plan = folder.file("against.toml", of_x(&line.replace("-20.000", "20.000")));
+    let (status, _, err) = ran(&folder, &["status", &plan]);
+    assert!(status == 2 && err.contains("error[live-commissioning]"), "{err}");
 }

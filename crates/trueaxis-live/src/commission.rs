@@ -4,7 +4,7 @@
 //! slew whatever was read.
 
 use crate::clock::{Clock, RealClock};
-use crate::file::{Plan, read_plan_to_commission};
+use crate::file::{Commissioned, Plan, read_plan_to_commission};
 use crate::governor::State;
 use crate::run::{Run, Wish};
 use crate::session::{Opened, Stopped, is_gone, open, own_mock, refused, unusable};
@@ -77,7 +77,8 @@ pub fn commission(
     let (store, owned) = opened.map_err(|fault| unusable(&folder, &fault, problems.clone()))?;
     let owned = held.or(owned).filter(|_| mock.is_none());
     let mut target = vec![0.0; plan.axes.len()];
-    target[live] = plan.axes[live].sign * asked.by / plan.axes[live].increment;
+    // As a person would type it at the control: `sign` is what is tried.
+    target[live] = asked.by / plan.axes[live].increment;
     let slew_s = (target[live] / plan.axes[live].limits.slew_per_s).abs();
     let run = Run::new(&plan, owned, control, sensors_of(&plan), store).with_target(target.clone());
     let tried =
@@ -160,6 +161,12 @@ fn is_there(
     state == State::Run
         && stands
         && acting.get(live).is_some_and(|held| (f64::from(*held) - due).abs() < 0.5)
+}
+
+/// How much of what was written to an axis it has moved, in the direction that its `sign` says: 1 is right.
+pub fn moved_ratio(plan: &Plan, axis: &str, wrote: f64, measured: f64) -> f64 {
+    let sign = plan.axes.iter().find(|a| a.name == axis).map_or(1.0, |a| a.sign);
+    Commissioned { wrote, measured, evidence: String::new() }.ratio(sign)
 }
 
 /// The line for the plan.

@@ -5,7 +5,7 @@ mod control;
 mod sensors;
 mod sources;
 
-pub use axes::{AxisPlan, Commissioned};
+pub use axes::{AxisPlan, Commissioned, RIGHT, WRONG};
 pub use control::{Bound, ControlPlan, FanucPlan, LinuxCncPlan};
 pub use sensors::{SensorPlan, Source};
 

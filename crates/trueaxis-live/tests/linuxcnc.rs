@@ -334,7 +334,7 @@ fn a_pivot_that_is_elsewhere_is_noticed_and_a_servo_thread_that_ends() {
 /// X moves by 0.1 mm a cycle: what is late is the rate of the target times two periods, and what is late by more than the plan
 /// allows is an alarm.
 #[test]
-fn an_offset_that_is_late_says_so() {
+fn law_an_offset_is_late_by_its_rate_times_two_periods() {
     let mut rig = Rig::new();
     rig.cycles(500);
     let mut last = 0.0;

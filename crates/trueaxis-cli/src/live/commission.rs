@@ -8,7 +8,8 @@ use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, channel};
 use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
-use trueaxis_live::commission::{Commission, Step, Tried, commission, evidence_line};
+use trueaxis_live::commission::{Commission, Step, Tried, commission, evidence_line, moved_ratio};
+use trueaxis_live::file::{RIGHT, WRONG};
 
 /// A length or an angle, mm or rad.
 fn quantity(text: &str) -> Option<f64> {
@@ -86,17 +87,14 @@ pub(super) fn run(arguments: &CommissionArguments) -> Outcome {
         }
     };
     let line = evidence_line(&plan, &arguments.axis, (by, measured), &arguments.evidence);
-    let ratio = measured / by;
-    let good = (0.8..=1.2).contains(&ratio);
+    let ratio = moved_ratio(&plan, &arguments.axis, by, measured);
+    let good = RIGHT.contains(&ratio);
     let shown = match good {
         true => format!(
-            "{:.2} of what was written. For [axis.{}] of the plan:\n{line}\n",
-            ratio, arguments.axis
+            "{ratio:.2} of what was written. For [axis.{}] of the plan:\n{line}\n",
+            arguments.axis
         ),
-        false => format!(
-            "{ratio:.2} of what was written: near -1 it is the sign, near 2 a diameter, near 25.4 inches, near 0 nothing acts. \
-             Correct sign, increment or the control, and measure again.\n"
-        ),
+        false => format!("{ratio:.2} of what was written: {WRONG}\n"),
     };
     let done = show(&Answer::Text(shown));
     if good { done } else { Outcome::No }

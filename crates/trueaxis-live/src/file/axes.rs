@@ -1,6 +1,7 @@
 //! `[axis.X]` of a plan: the limits of the governor, and the evidence of commissioning.
 
 use crate::governor::{AxisLimits, increments_of};
+use std::ops::RangeInclusive;
 use trueaxis::input::{Dimension, Section};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::AxisKind;
@@ -34,6 +35,18 @@ pub struct Commissioned {
     pub measured: f64,
     /// When, by whom, with what.
     pub evidence: String,
+}
+
+/// The tool moves as it was written, within a fifth: a wrong sign, diameter or inches are far from that.
+pub const RIGHT: RangeInclusive<f64> = 0.8..=1.2;
+/// What a ratio that is not right means.
+pub const WRONG: &str = "near -1 it is the sign, near 2 a diameter, near 25.4 inches, near 0 nothing acts: correct sign, increment or the control, and measure again";
+
+impl Commissioned {
+    /// How much of what was written the tool has moved, in the direction that the sign says. Unit: 1.
+    pub fn ratio(&self, sign: f64) -> f64 {
+        sign * self.measured / self.wrote
+    }
 }
 
 /// What an axis needs, with an example of each.
@@ -124,7 +137,7 @@ fn read_axis(section: &Section<'_>, machine: &Machine, axis: usize) -> Option<Ax
         section.error("live-limit", message, "at least one increment of the control");
     }
     if let Some(evidence) = &commissioned {
-        check_commissioned(section, &name, evidence, sign);
+        check_ratio(section, &name, evidence, sign);
     }
     Some(AxisPlan { axis, name, increment, sign, limits, commissioned, lag })
 }
@@ -149,14 +162,12 @@ fn read_commissioned(section: &Section<'_>, dimension: Dimension) -> Option<Comm
     Some(Commissioned { wrote: wrote?, measured: measured?, evidence: evidence?.to_owned() })
 }
 
-/// The tool moves as it was written, within a fifth: a wrong sign, diameter or inches are far from that.
-fn check_commissioned(section: &Section<'_>, name: &str, evidence: &Commissioned, sign: f64) {
-    let ratio = sign * evidence.measured / evidence.wrote;
-    if !(0.8..=1.2).contains(&ratio) {
+fn check_ratio(section: &Section<'_>, name: &str, evidence: &Commissioned, sign: f64) {
+    let ratio = evidence.ratio(sign);
+    if !RIGHT.contains(&ratio) {
         let message = format!(
             "axis {name}: what was written moved the tool by {ratio:.2} times as much as it should"
         );
-        let hint = "a factor near -1 is the sign, near 2 a diameter, near 25.4 inches: correct sign, increment or the control and measure again";
-        section.error("live-commissioning", message, hint);
+        section.error("live-commissioning", message, WRONG);
     }
 }
