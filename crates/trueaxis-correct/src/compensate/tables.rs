@@ -34,6 +34,7 @@ mod lever;
 mod link;
 mod linuxcnc;
 mod linuxcnc_kinematics;
+mod nominal;
 pub mod place;
 pub mod proof;
 mod sinumerik;

@@ -11,7 +11,8 @@
 //! zero angles, whatever the others are: docs/model.md eq. 190.
 
 use super::control::File;
-use super::lever::{linear_inverse, sum};
+use super::lever::sum;
+use super::nominal::LinearInverse;
 use super::tool_carrier::{CARRIER, Kind, axes};
 use trueaxis_geometry::frame::rotation;
 use trueaxis_geometry::{Mat3, Vec3};
@@ -106,12 +107,12 @@ impl CarrierChain {
     /// What the control adds to the linear axes of a command.
     pub fn added(&self, machine: &Machine, command: &Command) -> Command {
         let wanted = self.place(&self.nominal, command);
-        let solve = linear_inverse(machine, command);
+        let inverse = LinearInverse::of(machine, command);
         let mut added = Command::default();
         // The linear axes are straight: the second step is left to rounding.
         for _ in 0..2 {
             let off = self.place(&self.written, &sum(command, &added)) - wanted;
-            for (axis, step) in solve(&(self.workpiece_from_bed * off)) {
+            for (axis, step) in inverse.steps(&(self.workpiece_from_bed * off)) {
                 added[axis] -= step;
             }
         }

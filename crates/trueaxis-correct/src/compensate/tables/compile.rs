@@ -8,7 +8,7 @@ use super::grid::{GridFault, Gridded};
 use super::joints::Joints;
 use super::lever::Lever;
 use super::place::{PlaceFault, Placed};
-use super::proof::{error_losses, left_after_zero_set, left_over};
+use super::proof::{Left, error_losses, left_after_zero_set, left_over};
 use super::table::{PER_UNIT, Table, count_of, counts};
 use super::{
     Compiled, LeftOut, Made, Order, TablesError, What, grid, known, lever, place, shown,
@@ -24,17 +24,18 @@ use trueaxis_machine::errors::ErrorName;
 /// # Errors
 /// [`TablesError`]; then there is no file.
 pub fn compile(machine: &Machine, order: &Order) -> Result<Compiled, TablesError> {
-    let with = compile_with(machine, order)?;
+    let with = Draft::of(machine, order)?;
     let control = order.target.control();
-    let carrier = with.joints.as_ref().and_then(|j| control.carrier_chain(machine, j));
-    if carrier.is_none() {
-        return Ok(with);
+    let joints = with.compiled.joints.as_ref();
+    if joints.and_then(|j| control.carrier_chain(machine, j)).is_none() {
+        return with.judged(machine);
     }
     // Vectors that close leave what is constant and what the tool or the workpiece is tilted by: tables may do more.
-    let mut without = compile_with(machine, &Order { kinematics: false, ..*order })?;
-    if with.after_zero_set.rms_mm <= without.after_zero_set.rms_mm {
-        return Ok(with);
+    let without = Draft::of(machine, &Order { kinematics: false, ..*order })?;
+    if with.compiled.after_zero_set.rms_mm <= without.compiled.after_zero_set.rms_mm {
+        return with.judged(machine);
     }
+    let mut without = without.judged(machine)?;
     without.order = *order;
     for (index, name) in machine.stated_errors() {
         if control.knows_location(machine, name) {
@@ -51,58 +52,81 @@ pub fn compile(machine: &Machine, order: &Order) -> Result<Compiled, TablesError
 const BETTER_BY_TABLES: &str =
     "not by the control's vectors, which add nothing at zero angles: tables alone leave less";
 
-fn compile_with(machine: &Machine, order: &Order) -> Result<Compiled, TablesError> {
-    let control = order.target.control();
-    for axis in machine.axes() {
-        if !control.letters().contains(axis.name.letter()) {
-            return Err(TablesError::UnknownAxis { axis: axis.name, target: control.key() });
-        }
+/// What could be written, before all is known of what it leaves.
+struct Draft {
+    compiled: Compiled,
+    read: Content,
+}
+
+impl Draft {
+    /// What it leaves over the volume, and of each error alone.
+    fn judged(self, machine: &Machine) -> Result<Compiled, TablesError> {
+        let Self { mut compiled, read } = self;
+        let order = compiled.order;
+        let control = order.target.control();
+        let left =
+            |content: &Content| left_over(&Emulation::new(machine, control.as_ref(), content));
+        compiled.before = left(&Content::default())?;
+        compiled.wrong_sign = left(&read.negated(machine))?;
+        compiled.after = left(&read)?;
+        let (reference, control) = (compiled.reference, control.as_ref());
+        compiled.errors = error_losses(machine, &reference, (control, &read), &order);
+        Ok(compiled)
     }
-    let reference = order.reference.unwrap_or_else(|| middle(machine));
-    let (chain, rest) = known::split(machine, control.as_ref(), order.kinematics);
-    let knowledge = known::compile(&chain, order, control.as_ref())?;
-    let written: Vec<_> = knowledge.made.iter().map(|k| k.known.clone()).collect();
-    let (joints, uncertain_joints) = joints_of(chain, control.as_ref());
-    let mut content = Content { known: written, joints, ..Content::default() };
-    let rest = match machine.is_at_temperatures() && control.has_temperature_lines() {
-        true => {
-            let cold = rest.without_heat();
-            content.lines = temperature::lines((&rest, &cold), &reference, control.as_ref())?;
-            cold
+
+    fn of(machine: &Machine, order: &Order) -> Result<Self, TablesError> {
+        let control = order.target.control();
+        for axis in machine.axes() {
+            if !control.letters().contains(axis.name.letter()) {
+                return Err(TablesError::UnknownAxis { axis: axis.name, target: control.key() });
+            }
         }
-        false => rest,
-    };
-    let (tables, mut left_out) = tables(machine, &rest, order, (control.as_ref(), &content))?;
-    let uncertain = knowledge.left_out.into_iter().chain(uncertain_joints);
-    left_out.extend(uncertain.map(|(error, largest)| LeftOut {
-        what: What::Error(error),
-        largest,
-        reason: UNCERTAIN,
-    }));
-    content.tables = tables.iter().map(|t| t.table.clone()).collect();
-    let gridded = gridded(&rest, order, &reference, (control.as_ref(), &content))?;
-    content.grid = gridded.as_ref().map(|g| g.grid.clone());
-    let files = control.write(machine, &content);
-    let read = recovered(machine, control.as_ref(), &content, &files)?;
-    let left = |content: &Content| left_over(&Emulation::new(machine, control.as_ref(), content));
-    let with_tables = Emulation::new(machine, control.as_ref(), &read);
-    Ok(Compiled {
-        order: *order,
-        reference,
-        before: left(&Content::default())?,
-        wrong_sign: left(&read.negated(machine))?,
-        errors: error_losses(machine, &reference, (control.as_ref(), &read), order),
-        after: left_over(&with_tables)?,
-        after_zero_set: left_after_zero_set(&with_tables, &reference)?,
-        files,
-        tables,
-        known: knowledge.made,
-        lines: content.lines,
-        joints: content.joints,
-        grid: gridded,
-        left_out,
-        advice: control.advice(),
-    })
+        let reference = order.reference.unwrap_or_else(|| middle(machine));
+        let (chain, rest) = known::split(machine, control.as_ref(), order.kinematics);
+        let knowledge = known::compile(&chain, order, control.as_ref())?;
+        let written: Vec<_> = knowledge.made.iter().map(|k| k.known.clone()).collect();
+        let (joints, uncertain_joints) = joints_of(chain, control.as_ref());
+        let mut content = Content { known: written, joints, ..Content::default() };
+        let rest = match machine.is_at_temperatures() && control.has_temperature_lines() {
+            true => {
+                let cold = rest.without_heat();
+                content.lines = temperature::lines((&rest, &cold), &reference, control.as_ref())?;
+                cold
+            }
+            false => rest,
+        };
+        let (tables, mut left_out) = tables(machine, &rest, order, (control.as_ref(), &content))?;
+        let uncertain = knowledge.left_out.into_iter().chain(uncertain_joints);
+        left_out.extend(uncertain.map(|(error, largest)| LeftOut {
+            what: What::Error(error),
+            largest,
+            reason: UNCERTAIN,
+        }));
+        content.tables = tables.iter().map(|t| t.table.clone()).collect();
+        let gridded = gridded(&rest, order, &reference, (control.as_ref(), &content))?;
+        content.grid = gridded.as_ref().map(|g| g.grid.clone());
+        let files = control.write(machine, &content);
+        let read = recovered(machine, control.as_ref(), &content, &files)?;
+        let with_tables = Emulation::new(machine, control.as_ref(), &read);
+        let compiled = Compiled {
+            order: *order,
+            reference,
+            after_zero_set: left_after_zero_set(&with_tables, &reference)?,
+            before: Left::default(),
+            wrong_sign: Left::default(),
+            after: Left::default(),
+            errors: Vec::new(),
+            files,
+            tables,
+            known: knowledge.made,
+            lines: content.lines,
+            joints: content.joints,
+            grid: gridded,
+            left_out,
+            advice: control.advice(),
+        };
+        Ok(Self { compiled, read })
+    }
 }
 
 /// The rotary axes as the control's parameters have them, if it knows an error of them; and the errors that are not

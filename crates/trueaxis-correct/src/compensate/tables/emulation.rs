@@ -5,6 +5,7 @@ use super::content::Content;
 use super::control::Control;
 use super::lever::placed;
 use super::link::errors_of;
+use super::nominal::Nominal;
 use super::table::{count_of, counts};
 use super::temperature;
 use std::convert::Infallible;
@@ -61,7 +62,8 @@ impl<'a> Emulation<'a> {
             let content = (self.control, self.content);
             Ok::<_, Infallible>(errors_of(self.machine, content, at, approach))
         };
-        let Ok(added) = placed(self.machine, command, &known, Command::default());
+        let nominal = Nominal::of(self.machine, command);
+        let Ok(added) = placed(self.machine, (&nominal, command), &known, Command::default());
         added
     }
 }

@@ -10,9 +10,11 @@
 //! each are recovered exactly, and where tables are missing the constant is the one that leaves least. Squareness of a rotary axis, say, is left to the linear axes: turning an axis
 //! against an error of another body is right in one pose and wrong in the next.
 
-use super::super::values::{Sense, body_of};
-use nalgebra::{DMatrix, DVector};
-use trueaxis_geometry::Vec3;
+use super::super::values::body_of;
+use super::nominal::{Nominal, Nominals, nominal_tip};
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::rc::Rc;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Axis, AxisKind, Command};
 use trueaxis_machine::chain::CommandFault;
@@ -33,23 +35,43 @@ pub struct Lever<'a> {
     mean: Command,
     /// The mean of every output over the same poses where only this input moves.
     mean_of: Vec<Command>,
+    nominals: Rc<Nominals>,
+    /// What was asked before: an input gives every output at once, and they ask one after the other.
+    asked: RefCell<HashMap<(usize, u64, u64), Command>>,
+    uncertain: RefCell<HashMap<(usize, u64), Command>>,
 }
 
 impl<'a> Lever<'a> {
     /// # Errors
     /// A reference that an error table does not cover.
     pub fn new(machine: &'a Machine, reference: Command) -> Result<Self, CommandFault> {
+        Self::sharing(machine, reference, Rc::default())
+    }
+
+    /// The same beside others of one nominal chain.
+    ///
+    /// # Errors
+    /// As [`Lever::new`].
+    pub fn sharing(
+        machine: &'a Machine,
+        reference: Command,
+        nominals: Rc<Nominals>,
+    ) -> Result<Self, CommandFault> {
         let axes = machine.axes().len();
         let mut lever = Self {
             machine,
             reference,
             mean: Command::default(),
             mean_of: vec![Command::default(); axes],
+            nominals,
+            asked: RefCell::default(),
+            uncertain: RefCell::default(),
         };
         lever.whole(0, reference[0], 0.0)?;
         let mut count = 0.0;
         for pose in commands(machine.axes(), POSES) {
-            let all = correction(machine, &pose, &Approach::default());
+            let nominal = lever.nominals.at(machine, &pose);
+            let all = correction_from(machine, &nominal, &pose, &Approach::default());
             let each = (0..axes).map(|input| lever.whole(input, pose[input], 0.0));
             let (Ok(all), Ok(each)) = (all, each.collect::<Result<Vec<_>, _>>()) else { continue };
             count += 1.0;
@@ -86,6 +108,10 @@ impl<'a> Lever<'a> {
     /// # Errors
     /// As [`Lever::functions`].
     pub fn u(&self, input: usize, q: f64) -> Result<Command, CommandFault> {
+        let key = (input, q.to_bits());
+        if let Some(known) = self.uncertain.borrow().get(&key) {
+            return Ok(*known);
+        }
         let mut command = self.reference;
         command[input] = q;
         let quantities = self.machine.uncertain_quantities();
@@ -98,7 +124,9 @@ impl<'a> Lever<'a> {
                 *v += (a[output] - base).powi(2);
             }
         }
-        Ok(variance.map(f64::sqrt))
+        let u = variance.map(f64::sqrt);
+        self.uncertain.borrow_mut().insert(key, u);
+        Ok(u)
     }
 
     fn whole(&self, input: usize, q: f64, side: f64) -> Result<Command, CommandFault> {
@@ -106,7 +134,14 @@ impl<'a> Lever<'a> {
         command[input] = q;
         let mut approach = Approach::default();
         approach[input] = side;
-        correction(self.machine, &command, &approach)
+        let key = (input, q.to_bits(), side.to_bits());
+        if let Some(known) = self.asked.borrow().get(&key) {
+            return Ok(*known);
+        }
+        let nominal = self.nominals.at(self.machine, &command);
+        let added = correction_from(self.machine, &nominal, &command, &approach)?;
+        self.asked.borrow_mut().insert(key, added);
+        Ok(added)
     }
 }
 
@@ -119,9 +154,18 @@ pub fn correction(
     command: &Command,
     approach: &Approach,
 ) -> Result<Command, CommandFault> {
-    let added = rotary(machine, command, &machine.errors_at(command, approach)?);
+    correction_from(machine, &Nominal::of(machine, command), command, approach)
+}
+
+fn correction_from(
+    machine: &Machine,
+    nominal: &Nominal,
+    command: &Command,
+    approach: &Approach,
+) -> Result<Command, CommandFault> {
+    let added = rotary(machine, nominal, command, &machine.errors_at(command, approach)?);
     let errors = |at: &Command| errors_near(machine, at, command, approach);
-    placed(machine, command, &errors, added)
+    placed(machine, (nominal, command), &errors, added)
 }
 
 /// What is added already, and what the linear axes have to add to bring the tip to its place, mm or rad; with the
@@ -131,16 +175,15 @@ pub fn correction(
 /// Those of `errors`.
 pub fn placed<F>(
     machine: &Machine,
-    command: &Command,
+    (nominal, command): (&Nominal, &Command),
     errors: &dyn Fn(&Command) -> Result<ErrorValues, F>,
     mut added: Command,
 ) -> Result<Command, F> {
-    let wanted = nominal_tip(machine, command);
-    let solve = linear_inverse(machine, command);
     for _ in 0..STEPS {
         let at = sum(command, &added);
         let there = machine.deviation(&at, &errors(&at)?);
-        for (axis, step) in solve(&(there.nominal_tip.vector() + there.tip_mm - wanted)) {
+        let off = there.nominal_tip.vector() + there.tip_mm - nominal.tip;
+        for (axis, step) in nominal.steps(&off) {
             added[axis] -= step;
         }
     }
@@ -170,26 +213,25 @@ pub fn sum(command: &Command, added: &Command) -> Command {
     sum
 }
 
-fn nominal_tip(machine: &Machine, command: &Command) -> Vec3 {
-    machine.deviation(command, &ErrorValues::default()).nominal_tip.vector()
-}
-
 /// The rotary part: each axis against its own error motion and its own zero.
-fn rotary(machine: &Machine, command: &Command, errors: &ErrorValues) -> Command {
+fn rotary(
+    machine: &Machine,
+    nominal: &Nominal,
+    command: &Command,
+    errors: &ErrorValues,
+) -> Command {
     let mut added = Command::default();
-    for (i, axis) in machine.axes().iter().enumerate() {
-        if axis.kind == AxisKind::Rotary {
-            let mut own = ErrorValues::default();
-            let body = body_of(machine, i);
-            for component in Component::ALL {
-                let motion = ErrorIndex { body, kind: ErrorKind::Motion, component };
-                own.set(motion, errors.get(motion));
-            }
-            let zero = own_component(axis);
-            let zero = ErrorIndex { body, kind: ErrorKind::Location, component: zero };
-            own.set(zero, errors.get(zero));
-            added[i] = -Sense::of(machine, i, command).felt(machine, command, &own) + 0.0;
+    for (i, sense) in nominal.senses(machine) {
+        let mut own = ErrorValues::default();
+        let body = body_of(machine, *i);
+        for component in Component::ALL {
+            let motion = ErrorIndex { body, kind: ErrorKind::Motion, component };
+            own.set(motion, errors.get(motion));
         }
+        let zero = own_component(&machine.axes()[*i]);
+        let zero = ErrorIndex { body, kind: ErrorKind::Location, component: zero };
+        own.set(zero, errors.get(zero));
+        added[*i] = -sense.felt(machine, command, &own) + 0.0;
     }
     added
 }
@@ -203,27 +245,6 @@ pub fn own_component(axis: &Axis) -> Component {
     }
 }
 
-/// From an error of the tip to the steps of the linear axes that make it, the least ones if there is a choice.
-pub fn linear_inverse(machine: &Machine, command: &Command) -> impl Fn(&Vec3) -> Vec<(usize, f64)> {
-    let linear = machine.axes().iter().enumerate().filter(|(_, a)| a.kind == AxisKind::Linear);
-    let axes: Vec<usize> = linear.map(|(i, _)| i).collect();
-    let columns: Vec<Vec3> = axes
-        .iter()
-        .map(|i| {
-            let (mut more, mut less) = (*command, *command);
-            more[*i] += 0.5;
-            less[*i] -= 0.5;
-            nominal_tip(machine, &more) - nominal_tip(machine, &less)
-        })
-        .collect();
-    let matrix = DMatrix::from_fn(3, axes.len(), |row, column| columns[column][row]);
-    let inverse = matrix.pseudo_inverse(1e-9).unwrap_or_else(|_| DMatrix::zeros(axes.len(), 3));
-    move |off: &Vec3| {
-        let steps = &inverse * DVector::from_column_slice(off.as_slice());
-        axes.iter().copied().zip(steps.iter().copied()).collect()
-    }
-}
-
 /// What one standard uncertainty of each quantity changes of the correction, to first order.
 fn felt_by_each(
     machine: &Machine,
@@ -232,11 +253,11 @@ fn felt_by_each(
 ) -> Result<Vec<Command>, CommandFault> {
     let errors = machine.errors_at(command, &Approach::default())?;
     let known = machine.uncertainties_at(command, quantities);
-    let solve = linear_inverse(machine, command);
+    let nominal = Nominal::of(machine, command);
     let one = |errors: &ErrorValues| {
-        let mut added = rotary(machine, command, errors);
-        let moved = nominal_tip(machine, &sum(command, &added)) - nominal_tip(machine, command);
-        for (axis, step) in solve(&(machine.deviation(command, errors).tip_mm + moved)) {
+        let mut added = rotary(machine, &nominal, command, errors);
+        let moved = nominal_tip(machine, &sum(command, &added)) - nominal.tip;
+        for (axis, step) in nominal.steps(&(machine.deviation(command, errors).tip_mm + moved)) {
             added[axis] -= step;
         }
         added

@@ -8,8 +8,10 @@ use super::emulation::Emulation;
 use super::joints::{Joints, moves_an_axis};
 use super::known::split;
 use super::lever::{Lever, correction, errors_near, placed, sum};
+use super::nominal::Nominals;
 use super::table::Table;
 use super::{Order, TablesError};
+use std::rc::Rc;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, AxisKind, Command, MAX_AXES};
@@ -128,12 +130,15 @@ pub fn error_losses(
     let bare = all.iter().fold(cold.clone(), |m, (index, _)| m.with_error(*index, None));
     let poses = commands(machine.axes(), FEW_POSES);
     let mut losses = Vec::new();
+    let nominals = Rc::new(Nominals::default());
     for (index, error) in all {
         let stated = cold.bodies()[index.body].stated(index.kind, index.component).cloned();
         let alone = bare.clone().with_error(index, stated);
         let (chain, rest) = split(&alone, control, order.kinematics);
         let parts = (&chain, &rest);
-        let Ok(best) = Best::of(parts, *reference, (control, content)) else { continue };
+        let Ok(best) = Best::of(parts, *reference, (control, content), &nominals) else {
+            continue;
+        };
         let (mut before_mm, mut left_mm) = (0.0_f64, 0.0_f64);
         for (i, command) in poses.iter().enumerate() {
             let approach = [if i % 2 == 0 { 1.0 } else { -1.0 }; MAX_AXES];
@@ -167,6 +172,7 @@ struct Best<'a> {
     reference: Command,
     lever: Lever<'a>,
     carrier: Option<CarrierChain>,
+    nominals: &'a Rc<Nominals>,
 }
 
 impl<'a> Best<'a> {
@@ -174,10 +180,11 @@ impl<'a> Best<'a> {
         (chain, rest): (&'a Machine, &'a Machine),
         reference: Command,
         (control, content): (&'a dyn Control, &'a Content),
+        nominals: &'a Rc<Nominals>,
     ) -> Result<Self, CommandFault> {
-        let lever = Lever::new(rest, reference)?;
+        let lever = Lever::sharing(rest, reference, nominals.clone())?;
         let carrier = control.carrier_chain(chain, &Joints::actual(chain));
-        Ok(Self { chain, rest, control, content, reference, lever, carrier })
+        Ok(Self { chain, rest, control, content, reference, lever, carrier, nominals })
     }
 
     fn added(&self, command: &Command, approach: &Approach) -> Result<Command, CommandFault> {
@@ -210,7 +217,8 @@ impl<'a> Best<'a> {
                 Ok(errors)
             }
         };
-        placed(self.chain, command, &errors, Command::default())
+        let nominal = self.nominals.at(self.chain, command);
+        placed(self.chain, (&nominal, command), &errors, Command::default())
     }
 
     fn by_tables(&self, command: &Command, approach: &Approach) -> Result<Command, CommandFault> {
