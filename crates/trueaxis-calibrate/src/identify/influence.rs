@@ -8,7 +8,7 @@
 use super::adequacy::LEVEL_OF_READINGS;
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
-use trueaxis_geometry::statistics::{robust_deviation, student_above};
+use trueaxis_geometry::statistics::{normal_quantile_above, robust_deviation, student_above};
 use trueaxis_measure::measure::Readings;
 use trueaxis_measure::unknowns::design::Design;
 use trueaxis_measure::unknowns::fit::Fit;
@@ -65,12 +65,9 @@ pub fn influences(design: &Design, readings: &Readings, weights: &[f64], fit: &F
         .collect();
     let channels = |i: usize| channels(design, readings, i);
     let all = || (0..rows.len()).flat_map(|i| (0..channels(i)).map(move |c| (i, c)));
-    let scale = robust_deviation(all().map(|(i, c)| rows[i].standardised[c])).max(1.0);
     let numbers = all().count().max(1);
-    let limit = student_above(
-        0.5 * LEVEL_OF_READINGS / numbers as f64,
-        fit.degrees_of_freedom.max(3) as f64,
-    );
+    let scatter = robust_deviation(all().map(|(i, c)| rows[i].standardised[c]));
+    let (scale, limit) = scale_and_limit(scatter, numbers, fit.degrees_of_freedom);
     let mut outliers: Vec<Outlier> = all()
         .map(|(row, channel)| Outlier {
             row,
@@ -82,6 +79,22 @@ pub fn influences(design: &Design, readings: &Readings, weights: &[f64], fit: &F
         .collect();
     outliers.sort_by(|a, b| b.studentised.abs().total_cmp(&a.studentised.abs()));
     Influences { rows, outliers, limit }
+}
+
+/// The median of n sizes of normal numbers has a relative standard deviation of so much over √n: 1/(2 f(m) m), f(m) = 2 φ(m),
+/// m = 0.6745.
+const OF_THE_MEDIAN: f64 = 1.1664;
+
+/// What standardised residuals are divided by, and the limit of what comes out.
+///
+/// The stated noise counts, with the normal distribution; where the middle of all numbers says that it is larger, beyond two
+/// standard deviations of such a middle, that is the scale, and being estimated it has Student's limit.
+fn scale_and_limit(scatter: f64, numbers: usize, freedom: usize) -> (f64, f64) {
+    let tail = 0.5 * LEVEL_OF_READINGS / numbers as f64;
+    match scatter > 1.0 + 2.0 * OF_THE_MEDIAN / (numbers as f64).sqrt() {
+        true => (scatter, student_above(tail, freedom.max(3) as f64)),
+        false => (1.0, normal_quantile_above(tail)),
+    }
 }
 
 fn channels(design: &Design, readings: &Readings, i: usize) -> usize {
@@ -126,4 +139,37 @@ fn row(
         false => 0.0,
     });
     Influence { leverage: h.trace(), cook, standardised }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trueaxis_geometry::statistics::SplitMix64;
+
+    fn normal(dice: &mut SplitMix64) -> f64 {
+        let unit = ((dice.bits() >> 11) as f64 + 0.5) / (1u64 << 53) as f64;
+        normal_quantile_above(unit)
+    }
+
+    /// One good campaign in a hundred has a number beyond the limit, however many numbers there are.
+    #[test]
+    fn law_one_good_campaign_in_a_hundred_has_a_reading_called_wrong() {
+        let mut dice = SplitMix64::new(11);
+        for numbers in [30, 120, 1000] {
+            let campaigns = 4000;
+            let mut called = 0;
+            for _ in 0..campaigns {
+                let z: Vec<f64> = (0..numbers).map(|_| normal(&mut dice)).collect();
+                let scatter = robust_deviation(z.iter().copied());
+                let (scale, limit) = scale_and_limit(scatter, numbers, numbers - 10);
+                called += usize::from(z.iter().any(|z| (z / scale).abs() > limit));
+            }
+            // 40 are expected; four standard deviations are 25.
+            assert!((15..=65).contains(&called), "{numbers}: {called}");
+        }
+        // Twice the noise, not stated, is the scale.
+        let z: Vec<f64> = (0..120).map(|_| 2.0 * normal(&mut dice)).collect();
+        let (scale, _) = scale_and_limit(robust_deviation(z.iter().copied()), 120, 110);
+        assert!((scale - 2.0).abs() < 0.4, "{scale}");
+    }
 }
