@@ -45,6 +45,7 @@ fuzz_target!(|data: &[u8]| {
                 conditions: &conditions,
                 evaluated: &evaluated,
                 remarks: &[],
+                judged: &[],
             };
             assert!(!evaluation_report(&shown).text().contains("NaN"));
             assert!(document(&EvaluationDocument::of(&shown)).is_object());
