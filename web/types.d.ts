@@ -531,7 +531,7 @@ export type ServePredict =
 /**
  * The content of a file, by its ending and, for TOML, by its sections.
  */
-export type FileKind = "machine" | "study" | "campaign" | "program" | "readings" | "setup" | "cl" | "other";
+export type FileKind = "machine" | "study" | "campaign" | "program" | "readings" | "setup" | "cl" | "live" | "other";
 /**
  * A command that has a report.
  */
@@ -752,6 +752,8 @@ export interface Documents {
   "serve-evaluate": ServeEvaluate;
   "serve-identify-request": ServeIdentifyRequest;
   "serve-identify": ServeIdentify;
+  "serve-live-request": ServeLiveRequest;
+  "serve-live": ServeLive;
   "serve-models-request": ServeModelsRequest;
   "serve-models": ServeModels;
   "serve-open-request": ServeOpenRequest;
@@ -7788,6 +7790,14 @@ export interface LiveStatus {
    */
   last: LiveState | null;
   /**
+   * The last changes of state, the oldest first.
+   */
+  events: LiveEventEntry[];
+  /**
+   * The last hours; null if they were not asked for.
+   */
+  history: LiveHistory | null;
+  /**
    * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
@@ -7939,6 +7949,11 @@ export interface LiveAxisEntry {
    * Unit: that of `unit`.
    */
   lag: number | null;
+  /**
+   * What was missing when the zero of the part was touched, and is subtracted; of tip and tool axis together X, Y and Z of the
+   * tip in the workpiece. Null without such a zero. Unit: that of `unit`.
+   */
+  datum: number | null;
 }
 /**
  * One sensor.
@@ -7968,6 +7983,103 @@ export interface LiveSensorEntry {
    * The sensor that stands in for it.
    */
   instead: string | null;
+}
+/**
+ * A change of state.
+ */
+export interface LiveEventEntry {
+  /**
+   * When, seconds since 1970 (UTC).
+   */
+  date_s: number;
+  /**
+   * The clock of its run, s from its start.
+   */
+  time_s: number;
+  /**
+   * The state.
+   */
+  state: string;
+  /**
+   * Why.
+   */
+  reason: string;
+}
+/**
+ * The last hours of a plan. Each line has the largest deviation of its ten seconds, each point that of its lines, so that no peak
+ * is lost.
+ */
+export interface LiveHistory {
+  /**
+   * The time that it covers at most. Unit: h.
+   */
+  hours: number;
+  /**
+   * When, seconds since 1970 (UTC).
+   */
+  date_s: number[];
+  /**
+   * The state.
+   */
+  state: string[];
+  /**
+   * The live axes.
+   */
+  axes: LiveHistoryAxis[];
+  /**
+   * The sensors.
+   */
+  sensors: LiveHistorySensor[];
+}
+/**
+ * One axis over time: what the tool is off along it by the model.
+ */
+export interface LiveHistoryAxis {
+  /**
+   * Its letter.
+   */
+  axis: string;
+  /**
+   * The unit of its numbers: um or urad.
+   */
+  unit: string;
+  /**
+   * Without the correction; null where nothing is known. Unit: that of `unit`.
+   */
+  before: (number | null)[];
+  /**
+   * With the offset that acted. Unit: that of `unit`.
+   */
+  left: (number | null)[];
+  /**
+   * The largest without the correction, of all lines, thinned or not. Unit: that of `unit`.
+   */
+  before_max: number;
+  /**
+   * The largest with it. Unit: that of `unit`.
+   */
+  left_max: number;
+  /**
+   * The root mean square without the correction. Unit: that of `unit`.
+   */
+  before_rms: number;
+  /**
+   * The root mean square with it. Unit: that of `unit`.
+   */
+  left_rms: number;
+}
+/**
+ * One sensor over time.
+ */
+export interface LiveHistorySensor {
+  /**
+   * Its name.
+   */
+  sensor: string;
+  /**
+   * Its temperature; null where it could not be used.
+   */
+  celsius: (number | null)[];
 }
 /**
  * A test piece that was cut and measured virtually.
@@ -10202,6 +10314,65 @@ export interface TextEntry {
    * Its text.
    */
   text: string;
+}
+/**
+ * The state of a live run.
+ */
+export interface ServeLiveRequest {
+  /**
+   * The plan of the run.
+   */
+  plan: string;
+  /**
+   * The last hours, too. Unit: h.
+   */
+  hours?: number | null;
+}
+/**
+ * The state of a live run.
+ */
+export interface ServeLive {
+  /**
+   * The document of `trueaxis live status`.
+   */
+  document: ServeLiveDiagnosed;
+  /**
+   * The date of this answer, seconds since 1970 (UTC): by it the page says how old a state is.
+   */
+  now_s: number;
+}
+/**
+ * A document of the command line with the problems of its input.
+ */
+export interface ServeLiveDiagnosed {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/live-status/1";
+  /**
+   * The name of the plan.
+   */
+  name: string;
+  /**
+   * Whether a run is going on now.
+   */
+  running: boolean;
+  /**
+   * The last state that is known; null if the plan never ran here.
+   */
+  last: LiveState | null;
+  /**
+   * The last changes of state, the oldest first.
+   */
+  events: LiveEventEntry[];
+  /**
+   * The last hours; null if they were not asked for.
+   */
+  history: LiveHistory | null;
+  /**
+   * The problems found in the input.
+   */
+  diagnostics: DiagnosticEntry[];
 }
 /**
  * The surfaces of the models of a machine, those of STL files too.

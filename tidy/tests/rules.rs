@@ -262,7 +262,7 @@ const CRATES: [(&str, &[&str]); 27] = [
         ],
     ),
     ("trueaxis-live", &["", "report"]),
-    ("trueaxis-serve", &[""]),
+    ("trueaxis-serve", &["", "live"]),
     ("trueaxis-cli", &["", "live", "serve"]),
 ];
 
@@ -295,7 +295,7 @@ const PLACES: [(&[&str], &[&str]); 3] = [
         &[
             "crates/trueaxis/src/files",
             "crates/trueaxis-serve/src/project.rs",
-            "crates/trueaxis-live/src/store/disk.rs",
+            "crates/trueaxis-live/src/store/",
         ],
     ),
     (

@@ -10,6 +10,7 @@ import "./style/predict.css";
 import "./style/simulate.css";
 import "./style/simulate-source.css";
 import "./style/simulate-time.css";
+import "./style/live.css";
 import { App } from "./app.ts";
 import { startTheme } from "./theme.ts";
 

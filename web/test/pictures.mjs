@@ -3,16 +3,18 @@
 // Each is 1000 points wide, in at most 256 colours and 90 kB. The page is that of TRUEAXIS or ADDRESS (served.mjs);
 // making pictures smaller takes python3 with Pillow.
 
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawn } from "node:child_process";
 import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
 import os from "node:os";
 import path from "node:path";
-import { browse, open, root, serve } from "./served.mjs";
+import { browse, open, program, root, serve } from "./served.mjs";
 
 const WIDTH = 1000;
 const MOST_BYTES = 90_000;
 /** Until a scene drawn by the processor is smooth, and figures have their sizes. */
 const REST_MS = 2500;
+/** How long the run on the mock goes before its picture is taken. */
+const LIVE_MS = 150_000;
 
 const SMALLER = `
 import os, sys
@@ -73,11 +75,23 @@ const PICTURES = {
     act: (page) =>
       page.waitForFunction(() => document.querySelector("[data-test=report-note]")?.textContent?.includes(".html")),
   },
+  live: {
+    at: "live?plan=examples/08_live/gantry-mock.toml",
+    async act(page) {
+      // The run began with the first picture: its curves are there when some lines are.
+      await page.waitForSelector('#tab-live [data-quantity="X"] canvas', { timeout: 60_000 });
+      await page.waitForTimeout(LIVE_MS);
+      await page.reload();
+      await page.waitForSelector('#tab-live [data-quantity="X"] canvas');
+    },
+  },
 };
 
 const target = path.join(root, "docs/pictures");
 const raw = mkdtempSync(path.join(os.tmpdir(), "trueaxis-pictures-"));
 mkdirSync(target, { recursive: true });
+process.env.XDG_STATE_HOME = raw;
+const run = spawn(program, ["live", "examples/08_live/gantry-mock.toml"], { cwd: root, stdio: "ignore" });
 const server = await serve();
 const browser = await browse();
 try {
@@ -94,6 +108,7 @@ try {
     await context.close();
   }
 } finally {
+  run.kill("SIGKILL");
   await browser.close();
   await server.stop();
   rmSync(raw, { recursive: true, force: true });

@@ -1,6 +1,6 @@
 // One server and one browser for a file of tests; what the page shows is compared with the command line.
 //
-// The binary is that of TRUEAXIS, or target/release/trueaxis; the browser is CHROMIUM, or /usr/bin/chromium.
+// The program is that of TRUEAXIS, or target/release/trueaxis; the browser is CHROMIUM, or /usr/bin/chromium.
 
 import { execFile, spawn } from "node:child_process";
 import { existsSync, mkdirSync } from "node:fs";
@@ -10,7 +10,7 @@ import { promisify } from "node:util";
 import { chromium } from "playwright-core";
 
 export const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), "../..");
-const binary = process.env.TRUEAXIS ?? path.join(root, "target/release/trueaxis");
+export const program = process.env.TRUEAXIS ?? path.join(root, "target/release/trueaxis");
 const browserPath = process.env.CHROMIUM ?? "/usr/bin/chromium";
 const pictures = process.env.PICTURES ?? path.join(root, "target/screenshots");
 
@@ -18,7 +18,7 @@ const pictures = process.env.PICTURES ?? path.join(root, "target/screenshots");
 export async function cli(...words) {
   const run = promisify(execFile);
   const options = { cwd: root, maxBuffer: 1 << 28 };
-  const done = await run(binary, [...words, "--format", "json"], options).catch((error) => {
+  const done = await run(program, [...words, "--format", "json"], options).catch((error) => {
     if (error.code === 1) return error;
     throw error;
   });
@@ -42,8 +42,8 @@ async function live(server) {
  */
 export async function serve(folder = root, options = ["--no-token"]) {
   if (process.env.ADDRESS && folder === root) return { address: process.env.ADDRESS, stop: () => {} };
-  if (!existsSync(binary)) throw new Error(`${binary} is not there: cargo build --release`);
-  const child = spawn(binary, ["serve", folder, "--port", "0", ...options], { stdio: ["ignore", "pipe", "inherit"] });
+  if (!existsSync(program)) throw new Error(`${program} is not there: cargo build --release`);
+  const child = spawn(program, ["serve", folder, "--port", "0", ...options], { stdio: ["ignore", "pipe", "inherit"] });
   const address = await new Promise((found, failed) => {
     let text = "";
     child.stdout.on("data", (piece) => {

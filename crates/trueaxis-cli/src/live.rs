@@ -1,6 +1,7 @@
 //! `trueaxis live`: the correction in the control while it cuts.
 
 mod commission;
+mod datum;
 
 use crate::door::DoorArguments;
 use crate::output::{Answer, Format, Outcome, report_and, show, tell};
@@ -80,6 +81,8 @@ enum LiveCommand {
     Expect(ExpectArguments),
     /// End a run by its ramp, from another terminal
     Stop(StopArguments),
+    /// The zero of the part is being touched: what the correction lacks there is subtracted from now on
+    Datum(DatumArguments),
     /// Write an offset to one axis, take the reading of an indicator, and compare
     Commission(CommissionArguments),
     /// Compute the orders of a record again and compare them to the last bit
@@ -93,13 +96,18 @@ enum LiveCommand {
 #[command(after_help = "\
 Examples:
   trueaxis live status examples/08_live/gantry-mock.toml
+  trueaxis live status examples/08_live/gantry-mock.toml --last 8h
   trueaxis live status examples/08_live/gantry-mock.toml --format json
 
-Exit status: 0 shown, 2 unusable input.")]
+With --last it says what the tool was off by the model, before and after the correction; a line is kept each 10 s,
+for a day at least. Exit status: 0 shown, 2 unusable input.")]
 struct StatusArguments {
     /// The plan
     #[arg(value_name = "LIVE.toml")]
     plan: PathBuf,
+    /// What acted over the last hours, too: a time such as 8h
+    #[arg(long, value_name = "TIME")]
+    last: Option<String>,
     #[command(flatten)]
     door: DoorArguments,
 }
@@ -124,6 +132,27 @@ struct ExpectArguments {
     without: Option<String>,
     #[command(flatten)]
     door: DoorArguments,
+}
+
+/// The plan of the run.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  trueaxis live datum examples/08_live/gantry-mock.toml
+  trueaxis live datum examples/08_live/gantry-mock.toml --clear
+
+Give it while the axes stand where the zero of the part was touched, the correction as it was at the touch. What was off
+there is in the zero already; without this it would be corrected twice. With a run that has reached its target nothing
+is subtracted; with one that holds, or a --dry-run, as much as it lacks. It is kept for the next run of this plan. If it
+was touched before, without any run, write it into the plan: [datum] at = { ... }, temperatures = { ... }.
+Exit status: 0 done, 1 the run refused it, 2 unusable input.")]
+struct DatumArguments {
+    /// The plan
+    #[arg(value_name = "LIVE.toml")]
+    plan: PathBuf,
+    /// Subtract nothing any more; a [datum] of the plan counts again
+    #[arg(long)]
+    clear: bool,
 }
 
 /// The plan of the run.
@@ -213,26 +242,38 @@ struct MockArguments {
 pub fn run(arguments: &Arguments) -> Outcome {
     match &arguments.command {
         None => run_live(&arguments.run),
-        Some(LiveCommand::Status(a)) => a.door.door().ask(&LiveStatus { plan: a.plan.clone() }),
+        Some(LiveCommand::Status(a)) => status(a),
         Some(LiveCommand::Expect(a)) => {
             let (plan, log) = (a.plan.clone(), a.temperature_log.clone());
             a.door.door().ask(&ExpectLive { plan, log, without: a.without.clone() })
         }
         Some(LiveCommand::Stop(arguments)) => stop(arguments),
+        Some(LiveCommand::Datum(arguments)) => datum::run(arguments.clear, &arguments.plan),
         Some(LiveCommand::Commission(arguments)) => commission::run(arguments),
         Some(LiveCommand::Replay(arguments)) => run_replay(arguments),
         Some(LiveCommand::Mock(arguments)) => run_mock(arguments),
     }
 }
 
+fn status(arguments: &StatusArguments) -> Outcome {
+    let door = arguments.door.door();
+    match duration("--last", arguments.last.as_ref()) {
+        Ok(last_s) => {
+            let hours = last_s.map(|s| s / 3600.0);
+            door.ask(&LiveStatus { plan: arguments.plan.clone(), hours })
+        }
+        Err(problems) => refuse(problems, door.format),
+    }
+}
+
 /// A time such as `60s`.
-fn duration(text: Option<&String>) -> Result<Option<f64>, Diagnostics> {
+fn duration(option: &str, text: Option<&String>) -> Result<Option<f64>, Diagnostics> {
     let Some(text) = text else { return Ok(None) };
     let found = parse_quantity(text, Dimension::Time).ok().filter(|s| *s > 0.0);
     found.map(Some).ok_or_else(|| {
         let mut problems = Diagnostics::new();
         let message = format!("`{text}` is no time");
-        problems.error("bad-duration", Place::whole("--for"), message, "such as 60s, 10min or 8h");
+        problems.error("bad-duration", Place::whole(option), message, "such as 60s, 10min or 8h");
         problems
     })
 }
@@ -246,7 +287,7 @@ fn refuse(problems: Diagnostics, format: Format) -> Outcome {
 }
 
 fn run_live(arguments: &RunArguments) -> Outcome {
-    let for_s = match duration(arguments.duration.as_ref()) {
+    let for_s = match duration("--for", arguments.duration.as_ref()) {
         Ok(for_s) => for_s,
         Err(problems) => return refuse(problems, arguments.format),
     };
@@ -326,7 +367,7 @@ fn run_replay(arguments: &ReplayArguments) -> Outcome {
 fn run_mock(arguments: &MockArguments) -> Outcome {
     let MockKind::Fanuc = arguments.kind;
     let (plan, mut problems) = read_plan(&disk(), &arguments.plan);
-    let for_s = match duration(arguments.duration.as_ref()) {
+    let for_s = match duration("--for", arguments.duration.as_ref()) {
         Ok(for_s) => for_s,
         Err(found) => return refuse(found, Format::Text),
     };

@@ -200,6 +200,7 @@ const REQUESTS: &[(&str, &str)] = &[
     ),
     ("plan", r#"{"campaign": "examples/04_plan/probe-ball.toml", "dialect": "fanuc"}"#),
     ("identify", r#"{"campaign": "examples/05_identify/probe-ball.toml"}"#),
+    ("live", r#"{"plan": "examples/08_live/gantry-mock.toml", "hours": 8}"#),
     ("standards", r#"{}"#),
     ("evaluate", r#"{"standard": "iso230-2", "path": "examples/07_verify/x-axis-laser.csv"}"#),
     ("evaluate", r#"{"standard": "iso230-4", "path": "examples/07_verify/circle-xy.csv"}"#),

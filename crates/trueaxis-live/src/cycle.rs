@@ -2,7 +2,8 @@
 //! in; replayed it gives the same orders, to the last bit.
 
 use crate::control::{LinkFault, Seen};
-use crate::file::Plan;
+use crate::datum::{Datum, DatumOrder, DatumOutcome, Touch, touched};
+use crate::file::{Plan, PlannedDatum};
 use crate::governor::{Governor, Inputs, Order, Owned, Reason};
 use crate::model::{LiveAxis, Model, Target};
 use crate::pose::Frame;
@@ -27,6 +28,9 @@ pub struct CycleInput {
     pub confirmed: bool,
     /// The journal takes no entry.
     pub journal_fails: bool,
+    /// What is asked of the zero of the part.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub datum: Option<DatumOrder>,
 }
 
 /// What one cycle comes to.
@@ -43,10 +47,15 @@ pub struct CycleOutput {
     /// How far each offset is late while the target moves: its rate × the age of the position, in increments; none without two
     /// targets. Unit: counts.
     pub lag: Option<Vec<f64>>,
+    /// What has become of the zero of the part, where something was asked.
+    pub datum: Option<DatumOutcome>,
 }
 
 /// A position that is read is so many periods old when what follows from it acts: one until the next cycle, one under way.
 pub const AGE_PERIODS: f64 = 2.0;
+
+/// An axis that moves by less in one cycle stands. Unit: mm or rad.
+const STANDS: f64 = 2e-3;
 
 /// Sensors, model and governor of a run.
 #[derive(Debug, Clone)]
@@ -56,6 +65,10 @@ pub struct Correction {
     governor: Governor,
     last_s: Option<f64>,
     constant: Option<Vec<f64>>,
+    /// The zero of the part that the plan knows of.
+    planned: Option<Datum>,
+    /// Where the program stood in the last cycle.
+    stood: Option<Command>,
     /// The target of the last cycle, in increments, and the frame that it is of.
     before: Option<(Frame, Vec<f64>)>,
     period_s: f64,
@@ -76,15 +89,35 @@ impl Correction {
             true => model.clone().with_pose().unwrap_or(model),
             false => model,
         };
-        Self {
+        let mut correction = Self {
             watch: Watch::new(plan.sensors.iter().map(|s| s.settings.clone()).collect()),
             model,
             governor: Governor::new(plan.settings.clone(), owned),
             last_s: None,
             constant: None,
+            planned: None,
+            stood: None,
             before: None,
             period_s: plan.period_s,
-        }
+        };
+        // A session refuses a plan whose zero cannot be computed.
+        let planned = plan.datum.as_ref().and_then(|p| correction.planned_datum(p).ok());
+        correction.model.set_datum(planned.clone());
+        Self { planned, ..correction }
+    }
+
+    /// The zero of the part that the plan knows of: what is missing there without any correction.
+    ///
+    /// # Errors
+    /// [`Reason::Model`].
+    pub fn planned_datum(&self, planned: &PlannedDatum) -> Result<Datum, Reason> {
+        let mut model = self.model.clone();
+        let readings: Vec<(&str, f64)> =
+            planned.readings.iter().map(|(name, celsius)| (name.as_str(), *celsius)).collect();
+        model.set_readings(&readings)?;
+        let own = vec![0; model.axes().len()];
+        let touch = Touch { frame: Frame::default(), at: &planned.at, own: &own };
+        touched(&mut model, &touch)
     }
 
     /// The same with a constant in the place of the model's target, in increments.
@@ -101,6 +134,11 @@ impl Correction {
     /// The governor.
     pub fn governor(&self) -> &Governor {
         &self.governor
+    }
+
+    /// What is subtracted from every target: it was missing when the zero of the part was touched.
+    pub fn datum(&self) -> Option<&Datum> {
+        self.model.datum()
     }
 
     /// The sensors.
@@ -124,9 +162,12 @@ impl Correction {
         let known =
             tool.unwrap_or(Ok(())).and_then(|()| seen.map_or(Ok(()), |s| self.check_tip(s)));
         let frame = seen.map_or_else(Default::default, |seen| seen.frame);
+        let warm = known.and_then(|()| self.warm(&sensors));
+        let asked = input.datum.as_ref();
+        let datum = asked.map(|order| self.order_datum(order, &warm, (seen, programmed.as_ref())));
         let target = match &self.constant {
             Some(offsets) => Ok(Target { offsets: offsets.clone(), is_clamped: false }),
-            None => known.and_then(|()| self.target(&sensors, (frame, programmed.as_ref()))),
+            None => warm.and_then(|()| self.target(frame, programmed.as_ref())),
         };
         let lost = |fault: &LinkFault| Reason::LinkLost { what: fault.to_string() };
         let order = self.governor.step(
@@ -139,8 +180,55 @@ impl Correction {
                 journal_fails: input.journal_fails,
             },
         );
+        self.stood = programmed;
         let lag = self.lag(dt_s, (frame, target.as_ref().ok()));
-        CycleOutput { order, sensors, target: target.ok(), programmed, lag }
+        CycleOutput { order, sensors, target: target.ok(), programmed, lag, datum }
+    }
+
+    /// Sets, takes or clears the zero of the part; one that is refused leaves it as it was.
+    fn order_datum(
+        &mut self,
+        order: &DatumOrder,
+        warm: &Result<(), Reason>,
+        (seen, programmed): (Option<&Seen>, Option<&Command>),
+    ) -> DatumOutcome {
+        let datum = match order {
+            DatumOrder::Clear => self.planned.clone(),
+            DatumOrder::Set(datum) if datum.missing.len() == self.model.axes().len() => {
+                Some(datum.clone())
+            }
+            DatumOrder::Set(_) => return Err("it is of other axes".to_owned()),
+            DatumOrder::Take => Some(self.take_datum(warm, (seen, programmed))?),
+        };
+        self.model.set_datum(datum.clone());
+        Ok(datum)
+    }
+
+    fn take_datum(
+        &mut self,
+        warm: &Result<(), Reason>,
+        (seen, programmed): (Option<&Seen>, Option<&Command>),
+    ) -> Result<Datum, String> {
+        warm.as_ref().map_err(ToString::to_string)?;
+        let (Some(seen), Some(at)) = (seen, programmed) else {
+            return Err("no connection to the control".to_owned());
+        };
+        let still = |(a, b): (&f64, &f64)| (a - b).abs() < STANDS;
+        let stands = self.stood.as_ref().is_some_and(|before| at.iter().zip(before).all(still));
+        if !stands {
+            return Err("the axes move".to_owned());
+        }
+        let own = self.governor.corrections();
+        let before = self.model.datum().cloned();
+        let target = self.model.target(seen.frame, at);
+        let touch = Touch { frame: seen.frame, at, own: &own };
+        let taken = target.and_then(|target| Ok((target, touched(&mut self.model, &touch)?)));
+        self.model.set_datum(before);
+        let (target, datum) = taken.map_err(|reason| reason.to_string())?;
+        match self.governor.is_under_way(&target.offsets) {
+            true => Err("an offset is still on its way to its target".to_owned()),
+            false => Ok(datum),
+        }
     }
 
     fn lag(&mut self, dt_s: f64, (frame, target): (Frame, Option<&Target>)) -> Option<Vec<f64>> {
@@ -163,11 +251,8 @@ impl Correction {
         self.model.check_tip(tip_mm, &positions(seen))
     }
 
-    fn target(
-        &mut self,
-        sensors: &[Judged],
-        (frame, programmed): (Frame, Option<&Command>),
-    ) -> Result<Target, Reason> {
+    /// Takes the readings of now.
+    fn warm(&mut self, sensors: &[Judged]) -> Result<(), Reason> {
         let settings = self.watch.settings();
         let mut readings = Vec::with_capacity(sensors.len());
         for (settings, judged) in settings.iter().zip(sensors) {
@@ -182,7 +267,10 @@ impl Correction {
                 }
             }
         }
-        self.model.set_readings(&readings)?;
+        self.model.set_readings(&readings)
+    }
+
+    fn target(&mut self, frame: Frame, programmed: Option<&Command>) -> Result<Target, Reason> {
         let programmed =
             programmed.ok_or_else(|| Reason::Model { what: "no position".to_owned() })?;
         self.model.target(frame, programmed)

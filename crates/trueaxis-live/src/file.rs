@@ -2,11 +2,13 @@
 
 mod axes;
 mod control;
+mod datum;
 mod sensors;
 mod sources;
 
 pub use axes::{AxisPlan, Commissioned, RIGHT, WRONG};
 pub use control::{Bound, ControlPlan, FanucPlan, LinuxCncPlan};
+pub use datum::PlannedDatum;
 pub use sensors::{SensorPlan, Source};
 
 use crate::control::Mode;
@@ -41,6 +43,8 @@ pub struct Plan {
     pub settings: Settings,
     /// Of the loop.
     pub period_s: f64,
+    /// Where the zero of the part was touched without any correction, if the plan says so.
+    pub datum: Option<PlannedDatum>,
     /// Where journal and state are kept; by default in the folder of the user for such files.
     pub folder: Option<PathBuf>,
     /// Of the text of the plan and of the machine, in hexadecimal: a journal and a record belong to one plan.
@@ -100,6 +104,9 @@ fn read(root: &Section<'_>, path: &Path, commissions: bool) -> Option<Plan> {
     check_pose(root, &machine, of, control.as_ref());
     let pose = control.as_ref().is_some_and(ControlPlan::takes_pose);
     let sensors = sensors::read_sensors(root, folder, &machine, (&axes, of, pose));
+    let datum = sensors.as_deref().and_then(|sensors| {
+        root.section("datum", |section| datum::read_datum(section, &machine, sensors)).flatten()
+    });
     let (period_s, window_s) = root.section("cycle", read_cycle).unwrap_or((0.05, 0.5));
     let policy = root.section("policy", read_policy).unwrap_or_default();
     let journal = root.section("journal", |s| s.text("folder").map(|text| folder.join(text)));
@@ -125,6 +132,7 @@ fn read(root: &Section<'_>, path: &Path, commissions: bool) -> Option<Plan> {
         sensors: sensors?,
         settings,
         period_s,
+        datum,
         folder: journal.flatten(),
         hash: String::new(),
     })

@@ -17,10 +17,12 @@ pub mod clock;
 pub mod commission;
 pub mod control;
 pub mod cycle;
+pub mod datum;
 pub mod expect;
 pub mod file;
 pub mod focas;
 pub mod governor;
+pub mod history;
 #[allow(unsafe_code, reason = "the library of LinuxCNC is C")]
 pub mod linuxcnc;
 pub mod metrics;

@@ -7,6 +7,7 @@
 //! Nothing is calculated here that `trueaxis compensate values` calculates in another way: docs/model.md eq. 99. A control that
 //! takes tip and angles gets the command of `compensate program` instead, as an offset: see [`crate::pose`].
 
+use crate::datum::Datum;
 use crate::governor::Reason;
 use crate::linuxcnc::KinematicsCheck;
 use crate::pose::{Frame, PoseCorrection, World, turns};
@@ -47,6 +48,7 @@ pub struct Model {
     axes: Vec<LiveAxis>,
     pose: Option<Pose>,
     warm: Option<Warm>,
+    datum: Option<Datum>,
 }
 
 /// What belongs to the correction of tip and tool axis together.
@@ -80,7 +82,7 @@ pub struct Target {
 impl Model {
     /// Of a machine whose active compensation is subtracted already.
     pub fn new(machine: Machine, of: Compensation, part: Part, axes: Vec<LiveAxis>) -> Self {
-        Self { machine, of, part, axes, pose: None, warm: None }
+        Self { machine, of, part, axes, pose: None, warm: None, datum: None }
     }
 
     /// The same for a control that takes offsets of tip and angles: all axes are corrected together.
@@ -120,6 +122,42 @@ impl Model {
         }
         self.warm = None;
         Ok(())
+    }
+
+    /// Takes what was missing when the zero of the part was touched, from every target from now on.
+    pub fn set_datum(&mut self, datum: Option<Datum>) {
+        self.datum = datum;
+    }
+
+    /// What is subtracted.
+    pub fn datum(&self) -> Option<&Datum> {
+        self.datum.as_ref()
+    }
+
+    /// The datum of offsets that are missing at a position, in increments: of the pose its tip in the workpiece.
+    pub fn datum_of(&self, frame: Frame, at: &Command, missing: &[f64]) -> Datum {
+        let each = self.axes.iter().zip(missing);
+        let lengths: Vec<f64> = each.map(|(live, m)| m * live.increment * live.sign).collect();
+        let Some(pose) = &self.pose else { return Datum { missing: lengths } };
+        let mut by = Command::default();
+        self.axes.iter().zip(&lengths).for_each(|(live, mm)| by[live.axis] = *mm);
+        let moved = pose.world.moves_tip(frame, at, &by);
+        let place = |live: &LiveAxis| pose.world.linear().iter().position(|i| *i == live.axis);
+        Datum { missing: self.axes.iter().map(|l| place(l).map_or(0.0, |i| moved[i])).collect() }
+    }
+
+    /// What is subtracted of each live axis at a position. Unit: mm or rad.
+    fn subtracted(&self, frame: Frame, at: &Command) -> Vec<f64> {
+        let Some(datum) = &self.datum else { return vec![0.0; self.axes.len()] };
+        let Some(pose) = &self.pose else { return datum.missing.clone() };
+        let mut moved = Vec3::zeros();
+        for (live, missing) in self.axes.iter().zip(&datum.missing) {
+            if let Some(i) = pose.world.linear().iter().position(|i| *i == live.axis) {
+                moved[i] = *missing;
+            }
+        }
+        let by = pose.world.moving_tip(frame, at, &moved);
+        self.axes.iter().map(|live| by[live.axis]).collect()
     }
 
     /// Compares the tip of the control with that of the machine file, at a standing pose in the frame of the workpiece.
@@ -196,12 +234,13 @@ impl Model {
         let by = self.pose_offset(frame, (programmed, &command))?;
         let fault = |what: &str| Reason::Model { what: what.to_owned() };
         let warm = self.warm.as_ref().ok_or_else(|| fault("no temperatures yet"))?;
-        let offsets = self.axes.iter().map(|live| {
+        let subtracted = self.subtracted(frame, &command);
+        let offsets = self.axes.iter().zip(subtracted).map(|(live, subtracted)| {
             let wanted = match &by {
                 Some(by) => by[live.axis],
                 None => -self.error(&warm.machine, live.axis, &command)?,
             };
-            Ok(wanted * live.sign / live.increment)
+            Ok((wanted - subtracted) * live.sign / live.increment)
         });
         Ok(Target { offsets: offsets.collect::<Result<_, _>>()?, is_clamped })
     }

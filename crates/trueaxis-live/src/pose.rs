@@ -105,6 +105,38 @@ impl World {
         by
     }
 
+    /// How an offset of all axes at a command moves the tip: X, Y and Z in the workpiece, mm.
+    pub fn moves_tip(&self, frame: Frame, at: &Command, by: &Command) -> Vec3 {
+        match frame {
+            Frame::Workpiece => Vec3::from_fn(|i, _| by[self.linear[i]]),
+            Frame::Machine => {
+                let there = std::array::from_fn(|i| at[i] + by[i]);
+                self.xyz(&(self.tip(&there) - self.tip(at)))
+            }
+        }
+    }
+
+    /// The offset of the linear axes at a command that moves the tip so far in the workpiece, mm. Unit: mm or rad.
+    pub fn moving_tip(&self, frame: Frame, at: &Command, xyz: &Vec3) -> Command {
+        let mut by = Command::default();
+        let moves = match frame {
+            Frame::Workpiece => *xyz,
+            Frame::Machine => {
+                let vector = (0..3).map(|i| self.units[i] * xyz[i]).sum::<Vec3>();
+                let steps = trueaxis::geometry::Mat3::from_columns(&self.steps(at));
+                // why: X, Y and Z are square to each other, also where rotary axes turn the workpiece.
+                steps.try_inverse().expect("three directions") * vector
+            }
+        };
+        (0..3).for_each(|i| by[self.linear[i]] = moves[i]);
+        by
+    }
+
+    /// The machine axes of X, Y and Z.
+    pub fn linear(&self) -> [usize; 3] {
+        self.linear
+    }
+
     /// The command of the program, from positions that contain an offset.
     pub fn without(&self, frame: Frame, positions: &Command, offset: &Command) -> Command {
         let mut command: Command = std::array::from_fn(|i| positions[i] - offset[i]);

@@ -3,6 +3,7 @@
 use crate::clock::{Clock, date_s};
 use crate::control::{Control, LinkFault, Sent};
 use crate::cycle::{Correction, CycleInput, CycleOutput};
+use crate::datum::{DatumOrder, DatumOutcome};
 use crate::file::Plan;
 use crate::governor::{Owned, Reason, State};
 use crate::sensor::Sensor;
@@ -30,6 +31,7 @@ pub struct Run<'a> {
     /// Nothing is written.
     dry: bool,
     counts: Counts,
+    datum: Option<DatumOrder>,
 }
 
 /// What was counted.
@@ -74,7 +76,13 @@ impl<'a> Run<'a> {
             last: (State::Off, Reason::NotAsked),
             dry: false,
             counts: Counts::default(),
+            datum: None,
         }
+    }
+
+    /// Asks for something of the zero of the part, in the next cycle.
+    pub fn ask_datum(&mut self, order: DatumOrder) {
+        self.datum = Some(order);
     }
 
     /// The same, that computes and writes nothing, no heartbeat either.
@@ -123,10 +131,12 @@ impl<'a> Run<'a> {
             run: wish.run,
             confirmed: wish.confirmed,
             journal_fails: self.journal_fails,
+            datum: self.datum.take(),
         };
         let output = self.correction.step(&input);
         self.counts.cycles += 1;
         self.note(now_s, &input, &output);
+        self.keep_datum(now_s, &input, &output);
         self.send(&input, &output, clock.now_s());
         // A record that is lost does not end a run.
         let _ = self.store.record(&input, &output.order);
@@ -152,6 +162,27 @@ impl<'a> Run<'a> {
             Ok(()) => self.last = now,
             Err(_) => self.journal_fails = true,
         }
+    }
+
+    /// A zero that was taken or cleared is kept; what was set at the start is kept already.
+    fn keep_datum(&mut self, now_s: f64, input: &CycleInput, output: &CycleOutput) {
+        let Some(outcome) = &output.datum else { return };
+        let is_new = !matches!(input.datum, Some(DatumOrder::Set(_)));
+        let is_touch = matches!(input.datum, Some(DatumOrder::Take));
+        let kept = match outcome {
+            Ok(datum) if is_new => self.store.datum(datum.as_ref().filter(|_| is_touch)),
+            _ => Ok(()),
+        };
+        let (event, what) = shown_outcome(outcome);
+        let event = Event {
+            at_s: now_s,
+            date_s: date_s(),
+            event: event.to_owned(),
+            what,
+            offsets: input.seen.as_ref().map_or_else(|_| Vec::new(), |seen| seen.offsets.clone()),
+        };
+        // Not kept, so it would be lost at a restart: the offsets wait until the journal can be written.
+        self.journal_fails |= kept.and_then(|()| self.store.event(&event)).is_err();
     }
 
     fn send(&mut self, input: &CycleInput, output: &CycleOutput, now_s: f64) {
@@ -201,3 +232,23 @@ impl<'a> Run<'a> {
         }
     }
 }
+
+/// The event of a datum, and what was missing: µm of lengths.
+fn shown_outcome(outcome: &DatumOutcome) -> (&'static str, String) {
+    match outcome {
+        Err(why) => (DATUM_REFUSED, why.clone()),
+        Ok(None) => (DATUM_CLEARED, "nothing is subtracted".to_owned()),
+        Ok(Some(datum)) => {
+            let each = datum.missing.iter().map(|mm| format!("{:.1}", mm * 1e3));
+            let all = each.collect::<Vec<_>>().join(", ");
+            (DATUM_SET, format!("missing when the zero of the part was touched: {all} (um, mrad)"))
+        }
+    }
+}
+
+/// The zero of the part was touched.
+pub const DATUM_SET: &str = "datum";
+/// Nothing is subtracted any more.
+pub const DATUM_CLEARED: &str = "datum-cleared";
+/// It was not taken.
+pub const DATUM_REFUSED: &str = "datum-refused";

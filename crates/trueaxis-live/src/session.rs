@@ -3,16 +3,18 @@
 use crate::clock::{Clock, RealClock};
 use crate::control::{Control, Identity};
 use crate::cycle::{Correction, CycleInput};
+use crate::datum::DatumOrder;
 use crate::file::{ControlPlan, Plan, read_plan};
 use crate::focas::TcpWire;
 use crate::governor::Owned;
 use crate::governor::{Order, State};
+use crate::history::{HISTORY_S, Peaks, heading, line};
 use crate::metrics::prometheus;
 use crate::mock::MockServer;
 use crate::run::{Cycle, Run, Wish};
 use crate::start::{connect, connect_linuxcnc, mock_of, owner, sensors_of};
 use crate::status::{LiveState, folder_of, is_lagging, live_state, status_json};
-use crate::store::{DiskStore, StoreFault};
+use crate::store::{DiskStore, StoreFault, kept_datum};
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use trueaxis::input::{Diagnostics, Files, Place};
@@ -81,7 +83,7 @@ pub fn run_session(
     };
     let Some(folder) = folder_of(&plan, &mut problems) else { return Err(problems) };
     let (mut store, owned) = match DiskStore::open(&folder, &owner(&plan, &identity)) {
-        Ok(opened) => opened,
+        Ok((store, owned)) => (store.of_plan(&plan.hash), owned),
         Err(fault) => return Err(unusable(&folder, &fault, problems)),
     };
     // A mock of its own begins with nothing in it; what only we can have written is ours.
@@ -99,11 +101,43 @@ pub fn run_session(
         return Err(problems);
     }
     let run = Run::new(&plan, owned, control, sensors_of(&plan), store);
-    let run = if session.dry { run.dry() } else { run };
+    let mut run = if session.dry { run.dry() } else { run };
+    match first_datum(&plan, &folder, (session.confirmed, run.correction())) {
+        Ok(order) => order.into_iter().for_each(|order| run.ask_datum(order)),
+        Err(message) => {
+            let place = folder.join("datum.json").display().to_string();
+            problems.error("live-datum", Place::whole(&place), message, DATUM_HINT);
+            return Err(problems);
+        }
+    }
     let last = drive(session, &plan, (run, &identity), (&clock, stopped, tell));
     let is_clean =
         session.dry || (last.state == State::Off && last.axes.iter().all(|axis| axis.own == 0.0));
     Ok((Ended { plan, last, is_clean }, problems))
+}
+
+/// What to do about a zero that cannot be used.
+const DATUM_HINT: &str = "touch it again in a run (trueaxis live datum PLAN), or remove it: trueaxis live datum PLAN --clear; --confirm keeps it";
+
+/// The zero of the part at the start: that of an earlier run, or that of the plan.
+fn first_datum(
+    plan: &Plan,
+    folder: &Path,
+    (confirmed, correction): (bool, &Correction),
+) -> Result<Option<DatumOrder>, String> {
+    if let Some(kept) = kept_datum(folder)? {
+        return match kept.plan_hash == plan.hash || confirmed {
+            true => Ok(Some(DatumOrder::Set(kept.datum))),
+            false => {
+                Err("the zero of the part was touched under another plan or machine file"
+                    .to_owned())
+            }
+        };
+    }
+    // That of the plan is in the correction already, if it can be computed.
+    let planned = plan.datum.as_ref().map(|planned| correction.planned_datum(planned));
+    planned.transpose().map_err(|reason| reason.to_string())?;
+    Ok(None)
 }
 
 /// A control that was opened and compared with the plan.
@@ -207,6 +241,7 @@ fn drive(
     // Since when the correction is no more wanted, s; and whether it has gone.
     let (mut ending, gone) = (None, std::cell::Cell::new(false));
     let asked = std::cell::Cell::new(false);
+    let (columns, mut peaks, mut kept_s) = (heading(plan), Peaks::default(), 0.0);
     let mut last: Option<LiveState> = None;
     run.go(
         clock,
@@ -224,6 +259,7 @@ fn drive(
         |run, cycle| {
             gone.set(is_gone(cycle) && !cycle.input.run);
             let own = run.correction().governor().corrections();
+            peaks.add(plan, cycle, &own);
             let due = last.as_ref().is_none_or(|last| {
                 let order = &cycle.output.order;
                 cycle.input.now_s - last.time_s >= STATE_S
@@ -232,13 +268,13 @@ fn drive(
                     || last.lagging != is_lagging(plan, cycle)
             });
             if due || gone.get() {
-                let state = live_state(plan, identity, cycle, &own, run.counts());
-                let line = format!("{:8.1} s  {}: {}", state.time_s, state.state, state.reason);
+                let state = live_state(plan, identity, cycle, run.correction(), run.counts());
+                let said = format!("{:8.1} s  {}: {}", state.time_s, state.state, state.reason);
                 let same = last.as_ref().is_some_and(|last| {
                     last.state == state.state && last.cause.is_like(&state.cause)
                 });
                 if !same {
-                    tell(&line);
+                    tell(&said);
                 }
                 if state.lagging && last.as_ref().is_none_or(|last| !last.lagging) {
                     tell(&late(plan, &state));
@@ -246,7 +282,14 @@ fn drive(
                 // A state that cannot be shown does not end a run; the journal says so.
                 let _ = run.store().state(&status_json(plan, true, Some(state.clone())));
                 let _ = run.store().metrics(prometheus(&plan.name, &state));
+                if state.time_s - kept_s >= HISTORY_S {
+                    kept_s = state.time_s;
+                    run.store().history(&columns, line(&state, &mut peaks));
+                }
                 asked.set(asked.get() || run.store().is_stop_asked());
+                if let Some(order) = run.store().datum_order() {
+                    run.ask_datum(order);
+                }
                 last = Some(state);
             }
         },
@@ -254,7 +297,7 @@ fn drive(
     // why: `go` makes a cycle before it can end: at 0 s nothing is over, unless it is stopped at once.
     last.unwrap_or_else(|| {
         let cycle = run.cycle(clock, Wish::default());
-        live_state(plan, identity, &cycle, &[], run.counts())
+        live_state(plan, identity, &cycle, run.correction(), run.counts())
     })
 }
 

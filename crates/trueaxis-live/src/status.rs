@@ -1,10 +1,12 @@
 //! The state of a run, as the document `trueaxis/live-status/1`, a report, and the question that reads it.
 
 use crate::control::Identity;
-use crate::file::{Plan, read_plan};
+use crate::cycle::Correction;
+use crate::file::{AxisPlan, Plan, read_plan};
 use crate::governor::{Reason, State};
+use crate::history::{LiveHistory, history};
 use crate::run::{Counts, Cycle};
-use crate::store::{is_running, last_state, own_folder};
+use crate::store::{Event, is_running, last_events, last_state, own_folder};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -27,6 +29,25 @@ pub struct LiveStatusDocument {
     pub running: bool,
     /// The last state that is known; null if the plan never ran here.
     pub last: Option<LiveState>,
+    /// The last changes of state, the oldest first.
+    #[serde(default)]
+    pub events: Vec<LiveEventEntry>,
+    /// The last hours; null if they were not asked for.
+    #[serde(default)]
+    pub history: Option<LiveHistory>,
+}
+
+/// A change of state.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LiveEventEntry {
+    /// When, seconds since 1970 (UTC).
+    pub date_s: u64,
+    /// The clock of its run, s from its start.
+    pub time_s: f64,
+    /// The state.
+    pub state: String,
+    /// Why.
+    pub reason: String,
 }
 
 /// The state after one cycle.
@@ -94,6 +115,10 @@ pub struct LiveAxisEntry {
     /// Unit: that of `unit`.
     #[serde(default)]
     pub lag: Option<f64>,
+    /// What was missing when the zero of the part was touched, and is subtracted; of tip and tool axis together X, Y and Z of the
+    /// tip in the workpiece. Null without such a zero. Unit: that of `unit`.
+    #[serde(default)]
+    pub datum: Option<f64>,
 }
 
 /// One sensor.
@@ -115,7 +140,8 @@ pub struct LiveSensorEntry {
 
 impl LiveStatusDocument {
     fn of(name: &str, running: bool, last: Option<LiveState>) -> Self {
-        Self { schema: "trueaxis/live-status/1".to_owned(), name: name.to_owned(), running, last }
+        let (schema, name) = ("trueaxis/live-status/1".to_owned(), name.to_owned());
+        Self { schema, name, running, last, events: Vec::new(), history: None }
     }
 }
 
@@ -124,13 +150,15 @@ pub fn live_state(
     plan: &Plan,
     control: &Identity,
     cycle: &Cycle,
-    own: &[i32],
+    correction: &Correction,
     counts: Counts,
 ) -> LiveState {
+    let own = correction.governor().corrections();
+    let datum = |i: usize| correction.datum().and_then(|datum| datum.missing.get(i)).copied();
     let order = &cycle.output.order;
     let seen = cycle.input.seen.as_ref().ok();
     let axes = plan.axes.iter().enumerate().map(|(i, axis)| {
-        let is_linear = plan.machine.axes()[axis.axis].kind == AxisKind::Linear;
+        let is_linear = is_linear(plan, axis);
         let scale = axis.increment * if is_linear { 1e3 } else { 1e6 };
         let counted = |list: &Vec<i32>| list.get(i).map(|n| f64::from(*n) * scale);
         let position = cycle.output.programmed.map(|at| at[axis.axis]);
@@ -143,6 +171,7 @@ pub fn live_state(
             own: own.get(i).map_or(0.0, |n| f64::from(*n) * scale),
             target: cycle.output.target.as_ref().and_then(|t| t.offsets.get(i)).map(|t| t * scale),
             limit: f64::from(axis.limits.limit) * scale,
+            datum: datum(i).map(|missing| missing * if is_linear { 1e3 } else { 1e6 }),
             lag: cycle.output.lag.as_ref().and_then(|lag| lag.get(i)).map(|lag| lag * scale),
         }
     });
@@ -177,6 +206,11 @@ pub fn live_state(
     }
 }
 
+/// Whether its numbers are lengths.
+pub fn is_linear(plan: &Plan, axis: &AxisPlan) -> bool {
+    plan.machine.axes()[axis.axis].kind == AxisKind::Linear
+}
+
 /// Whether an offset is late by more than its plan allows.
 pub fn is_lagging(plan: &Plan, cycle: &Cycle) -> bool {
     let lags = cycle.output.lag.iter().flatten().zip(&plan.axes);
@@ -209,11 +243,34 @@ pub fn folder_of(plan: &Plan, problems: &mut Diagnostics) -> Option<PathBuf> {
 pub struct LiveStatus {
     /// The plan.
     pub plan: PathBuf,
+    /// The last hours, too. Unit: h.
+    pub hours: Option<f64>,
+}
+
+/// Events of a document.
+const MOST_EVENTS: usize = 50;
+/// Events of a text.
+const SHOWN_EVENTS: usize = 8;
+
+fn shown_event(event: &Event) -> LiveEventEntry {
+    LiveEventEntry {
+        date_s: event.date_s,
+        time_s: event.at_s,
+        state: event.event.clone(),
+        reason: event.what.clone(),
+    }
 }
 
 /// The answer.
 #[derive(Debug)]
 pub struct LiveStatusAnswer(LiveStatusDocument);
+
+impl LiveStatusAnswer {
+    /// The document itself.
+    pub fn into_document(self) -> LiveStatusDocument {
+        self.0
+    }
+}
 
 impl Question for LiveStatus {
     type Input = (Plan, PathBuf);
@@ -248,7 +305,10 @@ impl Question for LiveStatus {
                 return None;
             }
         };
-        Some(LiveStatusAnswer(LiveStatusDocument::of(&plan.name, is_running(&folder), last)))
+        let mut document = LiveStatusDocument::of(&plan.name, is_running(&folder), last);
+        document.events = last_events(&folder, MOST_EVENTS).iter().map(shown_event).collect();
+        document.history = self.hours.map(|hours| history(&folder, &plan, hours));
+        Some(LiveStatusAnswer(document))
     }
 }
 
@@ -260,11 +320,36 @@ impl Answer for LiveStatusAnswer {
     fn report(&self) -> Report<'_> {
         let report =
             Report::new(&self.0.name).line(if self.0.running { "running" } else { "not running" });
-        match &self.0.last {
-            None => report.line("it has not run here"),
-            Some(last) => state_report(report, last),
+        let Some(last) = &self.0.last else { return report.line("it has not run here") };
+        let report = state_report(report, last);
+        let report = match &self.0.history {
+            Some(history) => report.section(history_section(history)),
+            None => report,
+        };
+        match self.0.events.is_empty() {
+            true => report,
+            false => report.section(events_section(&self.0.events)),
         }
     }
+}
+
+/// What the last hours were, axis by axis.
+fn history_section(history: &LiveHistory) -> Section<'_> {
+    let rows = history.axes.iter().map(|axis| {
+        let unit = if axis.unit == "um" { "µm" } else { "µrad" };
+        let numbers = [axis.before_max, axis.left_max, axis.before_rms, axis.left_rms];
+        let [a, b, c, d] = numbers.map(|v| fixed(v, 1));
+        [axis.axis.clone(), a, b, c, d, unit.to_owned()]
+    });
+    let headings = ["axis", "largest before", "after", "rms before", "after", ""];
+    Section::new(format!("The last {} h: off by the model", fixed(history.hours, 1)))
+        .table(Table::new(headings).rows(rows))
+}
+
+fn events_section(events: &[LiveEventEntry]) -> Section<'_> {
+    let last = events.iter().skip(events.len().saturating_sub(SHOWN_EVENTS));
+    let rows = last.map(|e| [fixed(e.time_s, 1), e.state.clone(), e.reason.clone()]);
+    Section::new("Last events").table(Table::new(["s from the start", "state", "why"]).rows(rows))
 }
 
 /// A state for readers.
@@ -280,12 +365,22 @@ pub fn state_report<'a>(report: Report<'a>, last: &LiveState) -> Report<'a> {
             shown(axis.acting, 1),
             shown(axis.target, 1),
             shown(axis.lag, 1),
+            shown(axis.datum, 1),
             fixed(axis.limit, 0),
             unit.to_owned(),
         ]
     });
-    let headings =
-        ["axis", "position, mm or deg", "offset", "acts", "target", "late by", "limit", ""];
+    let headings = [
+        "axis",
+        "position, mm or deg",
+        "offset",
+        "acts",
+        "target",
+        "late by",
+        "zero off by",
+        "limit",
+        "",
+    ];
     let sensors = last.sensors.iter().map(|sensor| {
         let fault = match (&sensor.fault, &sensor.instead) {
             (Some(fault), _) => fault.clone(),

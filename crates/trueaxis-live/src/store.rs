@@ -1,14 +1,19 @@
 //! What a run leaves: what it owns in the control, its events, its state, its record.
 
+mod datum;
 mod disk;
+mod history;
 mod latest;
 mod memory;
 
-pub use disk::{DiskStore, StoreFault, ask_stop, is_running, last_state, own_folder};
+pub use datum::{KeptDatum, ask_datum, kept_datum};
+pub use disk::{DiskStore, StoreFault, ask_stop, is_running, last_events, last_state, own_folder};
+pub use history::history_lines;
 pub use memory::{MemoryStore, Noted};
 
 use crate::control::Identity;
 use crate::cycle::CycleInput;
+use crate::datum::{Datum, DatumOrder};
 use crate::governor::{Order, Owned};
 use serde::{Deserialize, Serialize};
 
@@ -65,6 +70,22 @@ pub trait Store {
     fn metrics(&mut self, _text: String) -> Result<(), String> {
         Ok(())
     }
+
+    /// The zero of the part, for the next run.
+    ///
+    /// # Errors
+    /// What the disk says.
+    fn datum(&mut self, _datum: Option<&Datum>) -> Result<(), String> {
+        Ok(())
+    }
+
+    /// What another process has asked of the zero of the part; each is given once.
+    fn datum_order(&mut self) -> Option<DatumOrder> {
+        None
+    }
+
+    /// A line of the history, under these headings; a line that the disk is too slow for is lost.
+    fn history(&mut self, _heading: &str, _line: String) {}
 
     /// Whether another process has asked for the end of this run.
     fn is_stop_asked(&mut self) -> bool {

@@ -3,6 +3,7 @@
 mod describe;
 mod evaluate;
 mod identify;
+mod live;
 mod machine;
 mod plan;
 mod predict;
@@ -42,6 +43,7 @@ pub(crate) const QUESTIONS: &[Question] = questions! {
     Quick "what-if" => predict::WhatIfRequest,
     Long "plan" => plan::PlanRequest,
     Long "identify" => identify::IdentifyRequest,
+    Quick "live" => live::LiveRequest,
     Quick "standards" => evaluate::StandardsRequest,
     Quick "evaluate" => evaluate::EvaluateRequest,
     Long "report" => report::ReportRequest,

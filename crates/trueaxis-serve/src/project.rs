@@ -55,6 +55,8 @@ pub(crate) enum FileKind {
     Setup,
     /// Cutter locations.
     Cl,
+    /// The plan of a live run.
+    Live,
     /// Another TOML file.
     Other,
 }
@@ -235,6 +237,7 @@ fn kind_of_toml(name: &str, text: &str) -> FileKind {
         () if begins(&["[machine]"]) => FileKind::Machine,
         () if begins(&["test_piece", "[holes]"]) => FileKind::Study,
         () if begins(&["[instrument.", "[[path]]"]) => FileKind::Campaign,
+        () if begins(&["[correction]"]) && begins(&["[control]"]) => FileKind::Live,
         () => FileKind::Other,
     }
 }

@@ -35,6 +35,8 @@ export interface TimePlotSpec {
   unit: string;
   digits?: number;
   time_s: ArrayLike<number>;
+  /** What the times are in, if not in seconds. */
+  time_unit?: string;
   series: TimeSeries[];
   limits?: TimeLimit[];
   marks?: TimeMark[];
@@ -66,11 +68,14 @@ export interface TimePlot {
 /** The plots of each group, so that a zoom of one is a zoom of all. */
 const groups = new Map<string, Set<TimePlotView>>();
 
-const floats = (values: ArrayLike<number>): number[] | Float64Array =>
-  values instanceof Float64Array ? values : Float64Array.from(values);
+/** What is not a number is a hole for uPlot only if it is null. */
+function floats(values: ArrayLike<number>): (number | null)[] | Float64Array {
+  const all = values instanceof Float64Array ? values : Float64Array.from(values);
+  return all.some(Number.isNaN) ? Array.from(all, (v) => (Number.isNaN(v) ? null : v)) : all;
+}
 
 function dataOf(spec: TimePlotSpec): uPlot.AlignedData {
-  const columns: (number[] | Float64Array)[] = [floats(spec.time_s)];
+  const columns: ((number | null)[] | Float64Array)[] = [floats(spec.time_s)];
   for (const one of spec.series) {
     columns.push(floats(one.values));
     if (one.low && one.high) columns.push(floats(one.low), floats(one.high));
@@ -150,7 +155,7 @@ class TimePlotView implements TimePlot {
   csvText(): string {
     const { series, unit, time_s } = this.spec;
     return csvOf([
-      { heading: "time (s)", values: time_s },
+      { heading: `time (${this.spec.time_unit ?? "s"})`, values: time_s },
       ...series.flatMap((one) => [
         { heading: `${one.name} (${unit})`, values: one.values },
         ...(one.low && one.high
@@ -215,7 +220,7 @@ class TimePlotView implements TimePlot {
         {
           ...axis,
           size: 28,
-          values: (_, values) => values.map((v) => withUnit(v, Math.max(0, v % 1 === 0 ? 0 : 2), "s")),
+          values: (_, values) => values.map((v) => withUnit(v, v % 1 === 0 ? 0 : 2, this.spec.time_unit ?? "s")),
         },
         {
           ...axis,
@@ -301,7 +306,7 @@ class TimePlotView implements TimePlot {
       this.readout.textContent = this.spec.unit;
       return;
     }
-    const time = withUnit(this.spec.time_s[i], 2, "s");
+    const time = withUnit(this.spec.time_s[i], 2, this.spec.time_unit ?? "s");
     if (this.spec.readout) {
       this.readout.textContent = `${this.spec.readout(i)}   ${time}`;
       return;

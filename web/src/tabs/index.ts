@@ -10,5 +10,6 @@ export const TABS: readonly TabEntry[] = [
   { name: "plan", title: "Plan", load: async () => (await import("./plan.ts")).plan },
   { name: "identify", title: "Identify", load: async () => (await import("./identify.ts")).identify },
   { name: "standards", title: "Standards", load: async () => (await import("./standards.ts")).standards },
+  { name: "live", title: "Live", load: async () => (await import("./live.ts")).live },
   { name: "report", title: "Report", load: async () => (await import("./report.ts")).report },
 ];

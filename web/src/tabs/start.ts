@@ -13,6 +13,7 @@ const VERBS: readonly [string, string, string][] = [
   ["identify", "Identify", "What the machine is like, from readings"],
   ["compensate", "Compensate", "What the control has to add"],
   ["standards", "Standards", "Readings judged by ISO 230"],
+  ["live", "Live", "What the correction in the control is doing"],
 ];
 
 const KINDS: readonly [FileKind, string, string | null, string][] = [
@@ -21,6 +22,7 @@ const KINDS: readonly [FileKind, string, string | null, string][] = [
   ["study", "Studies", "predict", "study"],
   ["campaign", "Campaigns", "plan", "campaign"],
   ["readings", "Readings", "standards", "path"],
+  ["live", "Live runs", "live", "plan"],
   ["setup", "Set-ups", null, ""],
   ["cl", "Cutter locations", null, ""],
 ];
@@ -33,6 +35,7 @@ const PARAMETER: Record<string, string> = {
   plan: "campaign",
   identify: "campaign",
   standards: "path",
+  live: "plan",
 };
 
 function openExample(app: App, example: Example): void {

@@ -1,12 +1,17 @@
-//! A store in a folder of its own: `lock`, `owned`, `journal.jsonl`, `state.json`, `metrics.prom`, `stop`.
+//! A store in a folder of its own: `lock`, `owned`, `journal.jsonl`, `state.json`, `metrics.prom`, `history.csv`,
+//! `datum.json`, `stop`.
 //!
 //! `owned` has two lines of fixed length that are written in turn, each with a number and a checksum: a run that is killed
 //! while it writes one leaves the other. The journal only grows by events, never by cycles.
 
+use super::datum::{KeptDatum, asked, keep};
+use super::history::History;
 use super::latest::Latest;
 use super::{Event, Owner, Store};
+use crate::clock::date_s;
 use crate::control::Identity;
 use crate::cycle::CycleInput;
+use crate::datum::{Datum, DatumOrder};
 use crate::governor::{Order, Owned};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -44,6 +49,9 @@ pub struct DiskStore {
     record: Option<BufWriter<File>>,
     state: Latest,
     metrics: Latest,
+    history: Option<History>,
+    /// The plan that a zero of the part belongs to.
+    plan_hash: String,
     /// Held as long as the run lasts.
     _lock: File,
 }
@@ -89,6 +97,24 @@ pub fn last_state(folder: &Path) -> Option<Value> {
     serde_json::from_str(&text).ok()
 }
 
+/// Bytes at the end of the journal that its last events are looked for in.
+const TAIL: u64 = 1 << 16;
+
+/// The last events of the journal, the oldest first.
+pub fn last_events(folder: &Path, most: usize) -> Vec<Event> {
+    let mut bytes = Vec::new();
+    let Ok(mut file) = File::open(folder.join("journal.jsonl")) else { return Vec::new() };
+    let size = file.metadata().map_or(0, |known| known.len());
+    let placed = file.seek(SeekFrom::Start(size.saturating_sub(TAIL)));
+    if placed.and_then(|_| file.take(TAIL).read_to_end(&mut bytes)).is_err() {
+        return Vec::new();
+    }
+    // The first line may be cut, and is then no event.
+    let text = String::from_utf8_lossy(&bytes);
+    let events: Vec<Event> = text.lines().filter_map(|l| serde_json::from_str(l).ok()).collect();
+    events[events.len().saturating_sub(most)..].to_vec()
+}
+
 /// FNV-1a with 32 bits.
 fn checksum(bytes: &[u8]) -> u32 {
     bytes
@@ -130,6 +156,7 @@ impl DiskStore {
             Err(fs::TryLockError::Error(error)) => return Err(error.into()),
         }
         // What was asked of an earlier run.
+        let _ = asked(folder);
         match fs::remove_file(folder.join(STOP)) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error.into()),
             _ => {}
@@ -156,9 +183,18 @@ impl DiskStore {
             record: None,
             state: Latest::of(folder.join("state.json")),
             metrics: Latest::of(folder.join("metrics.prom")),
+            history: None,
+            plan_hash: String::new(),
             _lock: lock,
         };
         Ok((store, last.map(|line| line.owned)))
+    }
+
+    /// The same for a plan: a zero of the part belongs to it.
+    #[must_use]
+    pub fn of_plan(mut self, hash: &str) -> Self {
+        self.plan_hash = hash.to_owned();
+        self
     }
 
     /// Records every cycle into this new file: a record that is there already stays.
@@ -217,6 +253,24 @@ impl Store for DiskStore {
 
     fn metrics(&mut self, text: String) -> Result<(), String> {
         self.metrics.put(text)
+    }
+
+    fn datum(&mut self, datum: Option<&Datum>) -> Result<(), String> {
+        let kept = datum.map(|datum| KeptDatum {
+            plan_hash: self.plan_hash.clone(),
+            date_s: date_s(),
+            datum: datum.clone(),
+        });
+        keep(&self.folder, kept.as_ref())
+    }
+
+    fn datum_order(&mut self) -> Option<DatumOrder> {
+        asked(&self.folder)
+    }
+
+    fn history(&mut self, heading: &str, line: String) {
+        let new = || History::of(self.folder.clone(), heading.to_owned());
+        self.history.get_or_insert_with(new).add(line);
     }
 
     fn is_stop_asked(&mut self) -> bool {

@@ -2,6 +2,7 @@
 
 use super::{Event, Store};
 use crate::cycle::CycleInput;
+use crate::datum::Datum;
 use crate::governor::{Order, Owned};
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -17,6 +18,8 @@ pub struct Noted {
     pub cycles: Vec<(CycleInput, Order)>,
     /// Nothing can be kept.
     pub fails: bool,
+    /// The zero of the part.
+    pub datum: Option<Datum>,
     /// Whether cycles are recorded.
     pub records: bool,
 }
@@ -46,6 +49,12 @@ impl Store for MemoryStore {
 
     fn state(&mut self, _: &serde_json::Value) -> Result<(), String> {
         self.unless_failing()
+    }
+
+    fn datum(&mut self, datum: Option<&Datum>) -> Result<(), String> {
+        self.unless_failing()?;
+        self.0.borrow_mut().datum = datum.cloned();
+        Ok(())
     }
 
     fn record(&mut self, input: &CycleInput, order: &Order) -> Result<(), String> {
