@@ -5,16 +5,20 @@ import { mkdtempSync, rmSync } from "node:fs";
 import os from "node:os";
 import path from "node:path";
 import { after, test } from "node:test";
-import { cli, open, picture, program, root } from "./served.mjs";
-import { browser, server } from "./shared.mjs";
+import { cli, open, picture, program, root, serve } from "./served.mjs";
+import { browser } from "./shared.mjs";
 import { shown } from "./measured.mjs";
 
 const plan = "examples/08_live/gantry-mock.toml";
 // Command and server look into a folder of this test for the journal of the run.
 const state = mkdtempSync(path.join(os.tmpdir(), "trueaxis-live-"));
 process.env.XDG_STATE_HOME = state;
+const server = await serve();
 
-after(() => rmSync(state, { recursive: true, force: true }));
+after(() => {
+  server.stop();
+  rmSync(state, { recursive: true, force: true });
+});
 
 const said = (page, name) => page.textContent(`#tab-live [data-test="${name}"]`);
 

@@ -516,6 +516,20 @@ mod tests {
         assert_eq!(minimum_circumscribed(&[]), Err(Error::TooFewPoints { found: 0, needed: 3 }));
     }
 
+    /// Whatever its direction and its unit: rounding alone is no circle of kilometres.
+    #[test]
+    fn law_a_line_is_a_line_at_every_size() {
+        for size in [1e-3, 1.0, 1e3, 1e6] {
+            for k in 0..20 {
+                let (sin, cos) = (0.15 * f64::from(k) + 0.01).sin_cos();
+                let on =
+                    |i: i32| [size * cos * f64::from(i) / 7.0, size * sin * f64::from(i) / 7.0];
+                let line: Vec<_> = (-9..13).map(on).collect();
+                assert_eq!(least_squares(&line), Err(Error::Collinear), "{size} {k}");
+            }
+        }
+    }
+
     /// Four points at 9 mm and four at 11 mm, alternately: ISO 1101 has the two circles, the radius is that half way.
     #[test]
     fn the_radius_of_the_zone_lies_between_its_circles() {

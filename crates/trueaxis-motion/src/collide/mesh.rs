@@ -501,6 +501,37 @@ mod tests {
         assert!((distance(&a, &b, &turned) - (9.0 - 8.0_f64.sqrt())).abs() < 1e-12);
     }
 
+    /// A square of 2 mm at z = 5: no thickness, the centre in its middle, √2 to its corners. Whatever the triangles are, no corner
+    /// is outside, along any direction.
+    #[test]
+    fn law_a_disc_holds_its_corners() {
+        let [a, b, c, d] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        let [a, b, c, d] = [a, b, c, d].map(|[x, y]: [f64; 2]| Vec3::new(3.0 + x, y - 4.0, 5.0));
+        let square = [[a, b, c], [a, c, d]];
+        let disc = Disc::around(&square);
+        assert!((disc.centre - Vec3::new(3.0, -4.0, 5.0)).norm() < 1e-12, "{disc:?}");
+        assert!(disc.half.abs() < 1e-12 && (disc.radius - 2.0_f64.sqrt()).abs() < 1e-12);
+        let turn = rotation(Vec3::new(1.0, 2.0, -0.5).normalize(), 0.7);
+        let bow: Vec<Triangle> = cuboid(Vec3::new(2.0, 3.0, 0.4))
+            .into_iter()
+            .map(|t| t.map(|corner| turn * corner + Vec3::new(20.0, -7.0, 3.0)))
+            .collect();
+        for part in [&bow[..], &bow[..3], &square] {
+            let disc = Disc::around(part);
+            for direction in
+                part.iter().flatten().map(|c| (c - Vec3::new(1.0, 2.0, 3.0)).normalize())
+            {
+                let reach = disc.reach(direction.dot(&disc.normal));
+                let farthest = part
+                    .iter()
+                    .flatten()
+                    .map(|c| (c - disc.centre).dot(&direction).abs())
+                    .fold(0.0, f64::max);
+                assert!(reach >= farthest && reach < 10.0, "{reach} {farthest}");
+            }
+        }
+    }
+
     #[test]
     fn a_box_inside_another_touches_no_surface() {
         let inner = Mesh::new(cuboid(Vec3::new(2.0, 2.0, 2.0))).unwrap();

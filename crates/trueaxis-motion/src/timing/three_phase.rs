@@ -194,6 +194,8 @@ mod tests {
         let stamp = |b: Block, s: f64| b.phases().expect("a block").time_at_s(s);
         assert!((stamp(constant, 0.1) - 0.02).abs() < 1e-15);
         assert!((stamp(smooth, 5.0 / 18.0 * 3.0 / 16.0) - 1.0 / 60.0).abs() < 1e-14);
+        // 0.3 of T₁: 2 · 0.3³ − 0.3⁴ of S₁.
+        assert!((stamp(smooth, 5.0 / 18.0 * 0.0459) - 0.01).abs() < 1e-14);
         let peak = smooth.phases().expect("a block").peak_acceleration();
         assert!((peak - 750.0).abs() < 1e-9);
         // At F from the begin it only slows down, and the other way round.

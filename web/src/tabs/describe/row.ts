@@ -180,6 +180,8 @@ export class ErrorRow {
     try {
       await this.actions.commit(this.error.name, typed);
       this.refuse(null);
+      // It is in the draft now: Ctrl+Z is for the draft from here on, also before its description has come.
+      if (this.box.value === typed) this.box.defaultValue = typed;
     } catch (error) {
       this.refuse(Refusal.from(error));
     }
