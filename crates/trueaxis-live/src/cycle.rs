@@ -4,7 +4,7 @@
 use crate::control::{LinkFault, Seen};
 use crate::datum::{Datum, DatumOrder, DatumOutcome, Touch, touched};
 use crate::file::{Plan, PlannedDatum};
-use crate::governor::{Governor, Inputs, Order, Owned, Reason};
+use crate::governor::{Governor, Inputs, Order, Owned, Reason, State};
 use crate::model::{LiveAxis, Model, Target};
 use crate::pose::Frame;
 use crate::sensor::{Judged, Sample, Watch};
@@ -54,6 +54,9 @@ pub struct CycleOutput {
 /// A position that is read is so many periods old when what follows from it acts: one until the next cycle, one under way.
 pub const AGE_PERIODS: f64 = 2.0;
 
+/// An offset that has not changed for so long is not on its way, s.
+const SETTLED_S: f64 = 0.5;
+
 /// An axis that moves by less in one cycle stands. Unit: mm or rad.
 const STANDS: f64 = 2e-3;
 
@@ -69,6 +72,8 @@ pub struct Correction {
     planned: Option<Datum>,
     /// Where the program stood in the last cycle.
     stood: Option<Command>,
+    /// What acts, and since when, s.
+    acts: Option<(Vec<i32>, f64)>,
     /// The target of the last cycle, in increments, and the frame that it is of.
     before: Option<(Frame, Vec<f64>)>,
     period_s: f64,
@@ -97,6 +102,7 @@ impl Correction {
             constant: None,
             planned: None,
             stood: None,
+            acts: None,
             before: None,
             period_s: plan.period_s,
         };
@@ -181,6 +187,10 @@ impl Correction {
             },
         );
         self.stood = programmed;
+        let acts = seen.map(|seen| self.acting(seen));
+        if acts.as_ref() != self.acts.as_ref().map(|(acts, _)| acts) {
+            self.acts = acts.map(|acts| (acts, now_s));
+        }
         let lag = self.lag(dt_s, (frame, target.as_ref().ok()));
         CycleOutput { order, sensors, target: target.ok(), programmed, lag, datum }
     }
@@ -218,17 +228,27 @@ impl Correction {
         if !stands {
             return Err("the axes move".to_owned());
         }
-        let own = self.governor.corrections();
-        let before = self.model.datum().cloned();
-        let target = self.model.target(seen.frame, at);
-        let touch = Touch { frame: seen.frame, at, own: &own };
-        let taken = target.and_then(|target| Ok((target, touched(&mut self.model, &touch)?)));
-        self.model.set_datum(before);
-        let (target, datum) = taken.map_err(|reason| reason.to_string())?;
-        match self.governor.is_under_way(&target.offsets) {
-            true => Err("an offset is still on its way to its target".to_owned()),
-            false => Ok(datum),
+        if !matches!(self.governor.state(), State::Run | State::Hold) {
+            return Err("the run neither follows nor holds".to_owned());
         }
+        let own = self.acting(seen);
+        let since_s = self.acts.as_ref().filter(|(acts, _)| *acts == own).map(|(_, since)| *since);
+        let now_s = self.last_s.unwrap_or(0.0);
+        if since_s.is_none_or(|since_s| now_s - since_s < SETTLED_S) {
+            return Err("an offset is still on its way to its target".to_owned());
+        }
+        let before = self.model.datum().cloned();
+        let touch = Touch { frame: seen.frame, at, own: &own };
+        let taken = touched(&mut self.model, &touch);
+        self.model.set_datum(before);
+        taken.map_err(|reason| reason.to_string())
+    }
+
+    /// What acts of this program's offsets, as the control says: nothing in a dry run, whatever was ordered.
+    pub fn acting(&self, seen: &Seen) -> Vec<i32> {
+        let acting = seen.acting.as_ref().unwrap_or(&seen.offsets);
+        let base = self.governor.owned().base;
+        acting.iter().zip(base).map(|(acts, base)| acts.saturating_sub(base)).collect()
     }
 
     fn lag(&mut self, dt_s: f64, (frame, target): (Frame, Option<&Target>)) -> Option<Vec<f64>> {

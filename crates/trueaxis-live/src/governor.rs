@@ -178,19 +178,14 @@ impl Governor {
         }
     }
 
+    /// The state after the last step.
+    pub fn state(&self) -> State {
+        self.state
+    }
+
     /// The present correction of each axis, in increments, base not included.
     pub fn corrections(&self) -> Vec<i32> {
         self.axes.iter().map(|a| a.own).collect()
-    }
-
-    /// Whether the correction moves towards this target: it runs and is not there yet, or it goes to zero.
-    pub fn is_under_way(&self, target: &[f64]) -> bool {
-        let away = |(axis, target): (&AxisMemory, &f64)| axis.wanted(*target).is_some();
-        match self.state {
-            State::Run => self.axes.iter().zip(target).any(away),
-            State::RampDown => true,
-            _ => self.under_way_s.is_some(),
-        }
     }
 
     /// A write was refused: the next one waits, longer each time.

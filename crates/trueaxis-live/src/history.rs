@@ -1,5 +1,6 @@
 //! What the correction took over the last days: of each axis before and after, the sensors, the states.
 
+use crate::cycle::Correction;
 use crate::file::Plan;
 use crate::run::Cycle;
 use crate::status::{LiveState, is_linear};
@@ -66,18 +67,17 @@ pub struct Peaks(Vec<[Option<f64>; 2]>);
 
 impl Peaks {
     /// One cycle: without the correction the tool is off by minus the target, with it by what acts of this program's
-    /// offset minus the target. What acts differs from what is held while the control itself ramps.
-    pub fn add(&mut self, plan: &Plan, cycle: &Cycle, own: &[i32]) {
+    /// offset minus the target; nothing is known without a link.
+    pub fn add(&mut self, plan: &Plan, cycle: &Cycle, correction: &Correction) {
         self.0.resize(plan.axes.len(), [None; 2]);
         let Some(target) = &cycle.output.target else { return };
-        let seen = cycle.input.seen.as_ref().ok();
+        let Ok(seen) = &cycle.input.seen else { return };
+        let acting = correction.acting(seen);
         for (i, (peak, axis)) in self.0.iter_mut().zip(&plan.axes).enumerate() {
             let Some(target) = target.offsets.get(i) else { continue };
-            let acting = seen.and_then(|seen| Some((seen.acting.as_ref()?, &seen.offsets)));
-            let late = acting.map_or(0.0, |(acts, held)| f64::from(acts[i]) - f64::from(held[i]));
-            let own = own.get(i).map_or(0.0, |own| f64::from(*own));
+            let acts = acting.get(i).map_or(0.0, |acts| f64::from(*acts));
             let scale = axis.increment * if is_linear(plan, axis) { 1e3 } else { 1e6 };
-            for (peak, now) in peak.iter_mut().zip([0.0 - target, own + late - target]) {
+            for (peak, now) in peak.iter_mut().zip([0.0 - target, acts - target]) {
                 let larger = peak.is_none_or(|peak: f64| (now * scale).abs() > peak.abs());
                 if larger {
                     *peak = Some(now * scale);

@@ -258,8 +258,7 @@ fn drive(
         },
         |run, cycle| {
             gone.set(is_gone(cycle) && !cycle.input.run);
-            let own = run.correction().governor().corrections();
-            peaks.add(plan, cycle, &own);
+            peaks.add(plan, cycle, run.correction());
             let due = last.as_ref().is_none_or(|last| {
                 let order = &cycle.output.order;
                 cycle.input.now_s - last.time_s >= STATE_S

@@ -256,6 +256,23 @@ fn what_cannot_be_a_touch_is_refused_and_changes_nothing() {
     assert_eq!(last_event(&rig).0, DATUM_REFUSED);
 }
 
+/// In a dry run nothing acts, whatever was ordered: all of the correction is missing.
+#[test]
+fn a_touch_in_a_dry_run_lacks_the_whole_correction() {
+    let whole: Vec<f64> =
+        Rig::settled(standing(&[])).acting().iter().map(|n| f64::from(*n)).collect();
+    let rig = Rig::new(standing(&[]));
+    let mut rig = Rig { run: rig.run.dry(), ..rig };
+    rig.pass(20.0);
+    rig.run.ask_datum(DatumOrder::Take);
+    rig.pass(0.2);
+    assert_eq!(last_event(&rig).0, DATUM_SET, "{:?}", last_event(&rig));
+    let kept = rig.store.0.borrow().datum.clone().expect("kept");
+    for ((mm, whole), axis) in kept.missing.iter().zip(whole).zip(&rig.plan.axes) {
+        assert!((mm * 1e3 * axis.sign - whole).abs() < 1.5, "{kept:?} {whole}");
+    }
+}
+
 #[test]
 fn a_zero_that_cannot_be_kept_stops_the_offsets() {
     let mut rig = Rig::settled(standing(&[]));

@@ -48,9 +48,8 @@ fn law_before_is_the_target_and_after_what_is_not_yet_written() {
         let mut worst = [[None::<f64>; 2]; 2];
         for _ in 0..20 {
             rig.cycle();
-            let own = rig.run.correction().governor().corrections();
             let cycle = rig.last.as_ref().expect("a cycle");
-            peaks.add(&rig.plan, cycle, &own);
+            peaks.add(&rig.plan, cycle, rig.run.correction());
             let Some(target) = &cycle.output.target else { continue };
             let acts = cycle
                 .input
@@ -61,8 +60,8 @@ fn law_before_is_the_target_and_after_what_is_not_yet_written() {
                 .clone()
                 .expect("the mock reports it");
             for axis in 0..2 {
-                let held = f64::from(cycle.input.seen.as_ref().expect("a link").offsets[axis]);
-                let acting = f64::from(own[axis]) + f64::from(acts[axis]) - held;
+                // The mock began with nothing in it.
+                let acting = f64::from(acts[axis]);
                 for (worst, now) in worst[axis]
                     .iter_mut()
                     .zip([-target.offsets[axis], acting - target.offsets[axis]])
