@@ -211,6 +211,9 @@ impl Correction {
             DatumOrder::Take => Some(self.take_datum(warm, (seen, programmed))?),
         };
         self.model.set_datum(datum.clone());
+        // Another zero is no jump of the machine, and no speed of the target: the offsets go there by their slew.
+        self.governor.forget_target();
+        self.before = None;
         Ok(datum)
     }
 

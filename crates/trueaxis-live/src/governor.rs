@@ -188,6 +188,11 @@ impl Governor {
         self.axes.iter().map(|a| a.own).collect()
     }
 
+    /// What comes next is no jump from the last target.
+    pub fn forget_target(&mut self) {
+        self.axes.iter_mut().for_each(AxisMemory::forget_target);
+    }
+
     /// A write was refused: the next one waits, longer each time.
     pub fn write_failed(&mut self, refused: bool) {
         // What stands there is not known: it is read when the window is over, and taken as it is.

@@ -148,7 +148,7 @@ pub fn history(folder: &Path, plan: &Plan, hours: f64) -> LiveHistory {
     let last_s = rows.last().map_or(0, |row| row.date_s);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "hours above 0")]
     let span_s = (hours * 3600.0) as u64;
-    rows.retain(|row| row.date_s + span_s >= last_s);
+    rows.retain(|row| row.date_s.saturating_add(span_s) >= last_s);
     thinned(plan, &rows, hours)
 }
 

@@ -211,8 +211,26 @@ fn a_touch_in_jog_does_not_move_anything_when_the_program_starts() {
     rig.pass(20.0);
     let after = rig.acting();
     let by_mm = f64::from(after[0] - before[0]) * 1e-3 * rig.plan.axes[0].sign;
-    assert!((by_mm - missing).abs() < 2e-3 || rig.state() == State::Hold, "{by_mm} {missing}");
-    assert_eq!(rig.store.0.borrow().datum, None);
+    assert!((by_mm - missing).abs() < 2e-3, "{by_mm} {missing}");
+    assert_eq!((rig.state(), rig.store.0.borrow().datum.clone()), (State::Run, None));
+}
+
+/// 150 µm are beyond the 60 µm of a jump: a zero that is set or cleared is none, and no offset is late by it.
+#[test]
+fn another_zero_is_neither_a_jump_nor_a_lag() {
+    let mut rig = Rig::settled(standing(&[]));
+    let before = rig.acting();
+    for (order, by) in
+        [(DatumOrder::Set(Datum { missing: vec![0.15, 0.0] }), -150), (DatumOrder::Clear, 0)]
+    {
+        rig.run.ask_datum(order);
+        rig.cycle();
+        let lag = rig.last.as_ref().expect("a cycle").output.lag.clone();
+        assert!(lag.is_none_or(|lag| lag.iter().all(|l| *l < 1.0)));
+        rig.pass(20.0);
+        assert_eq!(rig.state(), State::Run, "{}", rig.story());
+        assert!((rig.acting()[0] - before[0] - by).abs() <= 1, "{:?} {before:?}", rig.acting());
+    }
 }
 
 #[test]

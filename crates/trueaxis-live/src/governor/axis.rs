@@ -107,6 +107,10 @@ impl AxisMemory {
         (target - last).abs() > allowed
     }
 
+    pub fn forget_target(&mut self) {
+        self.target = None;
+    }
+
     pub fn wish(&mut self, target: f64) {
         self.target = Some(target);
         self.is_limited = target.abs() >= f64::from(self.limits.limit) + 0.5;
