@@ -168,6 +168,10 @@ mod tests {
                 let (turns, halt) = (turns.clone(), halt.clone());
                 async move { turns.take(TURN, &halt, work).await.map_err(|r| r.status) }
             });
+            // The first one is at work: only then does the second wait.
+            while turns.turns.available_permits() > 0 {
+                tokio::time::sleep(Duration::from_millis(1)).await;
+            }
             let waits = Halt::default();
             let second = tokio::spawn({
                 let (turns, waits) = (turns.clone(), waits.clone());
