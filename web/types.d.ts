@@ -733,6 +733,7 @@ export interface Documents {
   "identify-thermal": IdentifyThermal;
   "identify-tools": IdentifyTools;
   "live-expect": LiveExpect;
+  "live-part": LivePart;
   "live-status": LiveStatus;
   "measure-part": MeasurePart;
   measure: Measure;
@@ -7770,6 +7771,166 @@ export interface ExpectedLoss {
   rest_of_day: number[];
 }
 /**
+ * The records of parts.
+ */
+export interface LivePart {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/live-part/1";
+  /**
+   * The name of the plan.
+   */
+  name: string;
+  /**
+   * All parts with a record, by their names.
+   */
+  parts: string[];
+  /**
+   * The one that is made now; null if there is none.
+   */
+  recording: string | null;
+  /**
+   * The one that was asked for; null if none was.
+   */
+  part: LivePartEntry | null;
+  /**
+   * The problems found in the input; the command line prints them on standard error, too.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * What acted while one part was made.
+ */
+export interface LivePartEntry {
+  /**
+   * Its name.
+   */
+  part: string;
+  /**
+   * The file of its record.
+   */
+  file: string;
+  /**
+   * Its rows: ends of blocks, and places where X and Y stood.
+   */
+  rows: number;
+  /**
+   * When its first row was made, seconds since 1970 (UTC); null without rows.
+   */
+  begun_s: number | null;
+  /**
+   * When its last row was made, seconds since 1970 (UTC).
+   */
+  ended_s: number | null;
+  /**
+   * The rows at which the correction had not followed throughout the block, the first 50.
+   */
+  not_followed: LivePartRow[];
+  /**
+   * How many these are.
+   */
+  not_followed_count: number;
+  /**
+   * The live axes.
+   */
+  axes: LivePartAxis[];
+  /**
+   * The sensors.
+   */
+  sensors: LivePartSensor[];
+}
+/**
+ * One row.
+ */
+export interface LivePartRow {
+  /**
+   * The number of the program; 0 where the control does not say.
+   */
+  program: number;
+  /**
+   * The sequence number or line.
+   */
+  block: number;
+  /**
+   * The clock of the run, s from its start.
+   */
+  time_s: number;
+}
+/**
+ * One live axis over the rows.
+ */
+export interface LivePartAxis {
+  /**
+   * Its letter.
+   */
+  axis: string;
+  /**
+   * The unit of its numbers: um or urad.
+   */
+  unit: string;
+  /**
+   * The smallest and the largest that acted. Unit: that of `unit`.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  acted: [number, number];
+  /**
+   * The largest that was missing or too much at the end of a block, by the model. Unit: that of `unit`.
+   */
+  left: number;
+  /**
+   * The same anywhere in a block, rapids included. Unit: that of `unit`.
+   */
+  left_largest: number;
+}
+/**
+ * One sensor over the rows.
+ */
+export interface LivePartSensor {
+  /**
+   * The sensor of the machine file.
+   */
+  sensor: string;
+  /**
+   * The lowest and the highest.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  celsius: [number, number];
+}
+/**
  * The state of a live run, or what the last run has left.
  */
 export interface LiveStatus {
@@ -7891,6 +8052,10 @@ export interface LiveState {
    * An axis stands outside its travel: its error is that of the end.
    */
   outside_travel: boolean;
+  /**
+   * The part whose record is filled; null without one.
+   */
+  part: string | null;
   /**
    * Cycles so far.
    */
@@ -9172,7 +9337,7 @@ export interface PredictHoles {
    */
   location_tolerance_mm: number | null;
   /**
-   * The compensation that is applied: `none`, `machine` or `comprehensive`.
+   * The compensation that is applied: `none`, `machine`, `comprehensive`, or `acted`: what a live run has recorded.
    */
   applied: string;
   /**
@@ -9183,6 +9348,10 @@ export interface PredictHoles {
    * The log that the temperatures follow; null if there is none.
    */
   temperature_log: string | null;
+  /**
+   * The record of what acted; null without one.
+   */
+  acted_record: string | null;
   /**
    * The holes under each compensation.
    */
@@ -9238,7 +9407,7 @@ export interface PredictHoles {
  */
 export interface SetEntry {
   /**
-   * `none`, `machine` or `comprehensive`.
+   * `none`, `machine`, `comprehensive` or `acted`.
    */
   compensation: string;
   /**
@@ -11042,7 +11211,7 @@ export interface HolesDocument {
    */
   location_tolerance_mm: number | null;
   /**
-   * The compensation that is applied: `none`, `machine` or `comprehensive`.
+   * The compensation that is applied: `none`, `machine`, `comprehensive`, or `acted`: what a live run has recorded.
    */
   applied: string;
   /**
@@ -11053,6 +11222,10 @@ export interface HolesDocument {
    * The log that the temperatures follow; null if there is none.
    */
   temperature_log: string | null;
+  /**
+   * The record of what acted; null without one.
+   */
+  acted_record: string | null;
   /**
    * The holes under each compensation.
    */

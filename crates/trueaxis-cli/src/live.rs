@@ -2,6 +2,7 @@
 
 mod commission;
 mod datum;
+mod part;
 
 use crate::door::DoorArguments;
 use crate::output::{Answer, Format, Outcome, report_and, show, tell};
@@ -83,6 +84,8 @@ enum LiveCommand {
     Stop(StopArguments),
     /// The zero of the part is being touched: what the correction lacks there is subtracted from now on
     Datum(DatumArguments),
+    /// Say which part is being made, so that what acts on it is recorded; show the record
+    Part(part::PartArguments),
     /// Write an offset to one axis, take the reading of an indicator, and compare
     Commission(CommissionArguments),
     /// Compute the orders of a record again and compare them to the last bit
@@ -249,6 +252,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         }
         Some(LiveCommand::Stop(arguments)) => stop(arguments),
         Some(LiveCommand::Datum(arguments)) => datum::run(arguments.clear, &arguments.plan),
+        Some(LiveCommand::Part(arguments)) => part::run(arguments),
         Some(LiveCommand::Commission(arguments)) => commission::run(arguments),
         Some(LiveCommand::Replay(arguments)) => run_replay(arguments),
         Some(LiveCommand::Mock(arguments)) => run_mock(arguments),

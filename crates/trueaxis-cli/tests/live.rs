@@ -105,6 +105,51 @@ fn what_is_no_plan_is_refused() {
     assert!(status == 2 && err.contains("live-record"), "{err}");
 }
 
+/// A part is recorded over two runs, its record is never written over, and `predict` reads it.
+#[test]
+fn a_part_is_recorded_and_predicted_by_what_acted() {
+    let folder = Folder::new("live-part");
+    let (status, out, err) = ran(&folder, &["part", PLAN, "--begin", "ARM-0417"]);
+    assert!(status == 0 && out.contains("when a run of this plan begins"), "{out}{err}");
+    let show = ["part", PLAN, "--show", "ARM-0417", "--format", "json"];
+    let mut rows = 0;
+    for run in 1..=2 {
+        // The first stop is left after 2 s.
+        assert_eq!(ran(&folder, &[PLAN, "--for", "3s"]).0, 0);
+        let document = json(&ran(&folder, &show).1);
+        let now = document["part"]["rows"].as_u64().expect("rows");
+        assert!(now > rows, "run {run}: {document}");
+        assert_eq!(document["recording"], "ARM-0417");
+        rows = now;
+    }
+    let file = json(&ran(&folder, &show).1)["part"]["file"].as_str().expect("a file").to_owned();
+    let text = std::fs::read_to_string(&file).expect("the record");
+    assert_eq!(text.lines().filter(|l| l.starts_with("time_s")).count(), 1, "{text}");
+    for (words, says) in [
+        (["part", PLAN, "--begin", "ARM-0417"], "is not written over"),
+        (["part", PLAN, "--begin", "../x"], "is no name of a file"),
+        (["part", PLAN, "--show", "ARM-0418"], "no part `ARM-0418`"),
+    ] {
+        let (status, _, err) = ran(&folder, &words);
+        assert!(status == 2 && err.contains("error[live-part]") && err.contains(says), "{err}");
+    }
+    assert!(ran(&folder, &["part", PLAN, "--end"]).1.contains("the record of ARM-0417 ends"));
+    assert!(ran(&folder, &["part", PLAN, "--end"]).1.contains("no part was recorded"));
+    assert_eq!(std::fs::read_to_string(&file).expect("the record"), text);
+    // Three holes around the first stop are not in it; said with the place.
+    let study = "name = \"arm\"\nmachine = \"MACHINE\"\n[holes]\ncount = 3\ncircle = \"100 mm\"\n\
+                 centre = \"100 100 0 mm\"\n[compensation]\nacted = \"RECORD\"\n";
+    let machine = root().join("machines/gantry-001/machine.toml").display().to_string();
+    let study =
+        folder.file("arm.toml", study.replace("MACHINE", &machine).replace("RECORD", &file));
+    let predicted = Command::new(env!("CARGO_BIN_EXE_trueaxis"))
+        .args(["predict", &study])
+        .output()
+        .expect("it starts");
+    let err = String::from_utf8_lossy(&predicted.stderr).into_owned();
+    assert!(predicted.status.code() == Some(2) && err.contains("error[not-in-record]"), "{err}");
+}
+
 /// The largest error of X is that of `compensate values` at some row, and what remains is the age of the sample and the increment.
 #[test]
 fn what_is_gained_is_said_before() {

@@ -102,6 +102,7 @@ const ANSWERS: &[(&str, &str)] = &[
         "live-expect",
         "live expect examples/08_live/gantry-mock.toml --temperature-log examples/03_predict/torque-arm-hall.csv",
     ),
+    ("live-part", "live part examples/08_live/gantry-mock.toml"),
     ("live-status", "live status examples/08_live/gantry-mock.toml"),
     ("measure", "measure examples/07_verify/probe-ball-campaign.toml -o OUT/readings"),
     ("measure-part", "measure --part examples/03_predict/nas979-on-xkas2525.toml --draw"),

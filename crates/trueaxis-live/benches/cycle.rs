@@ -56,6 +56,7 @@ impl Control for Moving {
             frame: self.frame,
             tool_length_mm: None,
             standing_tip_mm: None,
+            block: None,
         })
     }
 

@@ -49,6 +49,15 @@ impl Mode {
     ];
 }
 
+/// A block of a program that is executed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Block {
+    /// The number of the program; 0 where the control does not say.
+    pub program: i32,
+    /// Its sequence number (the last N), or its line.
+    pub number: i32,
+}
+
 /// What a control reports in one cycle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Seen {
@@ -86,6 +95,9 @@ pub struct Seen {
     /// Tip of the tool in X Y Z of the control, while all axes stand; none where it does not say.
     #[serde(default)]
     pub standing_tip_mm: Option<[f64; 3]>,
+    /// The block that is executed; none where it does not say.
+    #[serde(default)]
+    pub block: Option<Block>,
 }
 
 /// What is sent in one cycle.

@@ -29,6 +29,10 @@ pub mod call {
     pub const SYSTEM: u16 = 0x18;
     /// `cnc_statinfo`.
     pub const STATUS: u16 = 0x19;
+    /// `cnc_rdprgnum`: the program that runs, and the main program.
+    pub const PROGRAM: u16 = 0x1c;
+    /// `cnc_rdseqnum`: the last sequence number.
+    pub const SEQUENCE: u16 = 0x1d;
     /// `cnc_actf`.
     pub const FEED: u16 = 0x24;
     /// Positions; the first argument 1 means machine coordinates.

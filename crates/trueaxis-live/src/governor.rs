@@ -140,6 +140,8 @@ pub struct Governor {
     is_confirmed: bool,
     /// What is owned is known from this run, not from the journal.
     has_run: bool,
+    /// Feed hold was asked for, and the reason for it lasts.
+    asks_hold: bool,
 }
 
 impl Governor {
@@ -158,6 +160,7 @@ impl Governor {
             was_unhomed: false,
             missing_s: 0.0,
             pause_s: 0.0,
+            asks_hold: false,
             refusals: 0,
             is_confirmed: false,
             has_run: false,
@@ -458,15 +461,17 @@ impl Governor {
         (self.state, self.reason) = (state, reason);
     }
 
-    fn order(&self, write: Option<Vec<i32>>, seen: &Seen) -> Order {
+    fn order(&mut self, write: Option<Vec<i32>>, seen: &Seen) -> Order {
         let holds = matches!(self.state, State::Hold | State::Latched);
         let lasts = self.state == State::Latched || self.held_s > self.settings.hold_s;
         let own = self.axes.iter().any(|axis| axis.own != 0);
+        // A program that has stopped for it is not cutting, and must not go on for that.
+        self.asks_hold = holds && own && (self.asks_hold || (lasts && seen.cutting));
         Order {
             state: self.state,
             reason: self.reason.clone(),
             write,
-            ask_hold: holds && lasts && own && seen.cutting,
+            ask_hold: self.asks_hold,
             near_limit: self.axes.iter().any(AxisMemory::is_near_limit),
         }
     }

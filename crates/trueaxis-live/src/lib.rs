@@ -28,6 +28,8 @@ pub mod linuxcnc;
 pub mod metrics;
 pub mod mock;
 pub mod model;
+pub mod part;
+pub mod parts;
 pub mod pose;
 pub mod run;
 pub mod sensor;
@@ -41,6 +43,7 @@ use trueaxis_report::{NamedSchema, named_schema};
 pub fn schemas() -> Vec<NamedSchema> {
     let mut all = vec![
         named_schema::<expect::LiveExpectDocument>("live-expect"),
+        named_schema::<parts::LivePartDocument>("live-part"),
         named_schema::<status::LiveStatusDocument>("live-status"),
     ];
     all.iter_mut().for_each(|(_, schema)| trueaxis::add_diagnostics(schema));

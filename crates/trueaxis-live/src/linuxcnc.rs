@@ -13,7 +13,7 @@ mod hal;
 
 pub use hal::{HalFault, HalPins};
 
-use crate::control::{Control, Identity, LinkFault, Mode, Seen, Sent};
+use crate::control::{Block, Control, Identity, LinkFault, Mode, Seen, Sent};
 use crate::pose::Frame;
 use trueaxis::geometry::Vec3;
 
@@ -104,7 +104,8 @@ impl LinuxCncSettings {
         numbers_in.extend(WORLD.map(|l| format!("tip-{l}")));
         numbers_in.extend(live("acting"));
         numbers_in.extend(live("request"));
-        numbers_in.extend(["begin", "end", "velocity", "tool-length"].map(str::to_owned));
+        numbers_in
+            .extend(["begin", "end", "velocity", "tool-length", "program-line"].map(str::to_owned));
         let mut bits_in = BITS_IN.map(str::to_owned).to_vec();
         bits_in.extend(joints("homed"));
         let mut numbers_out = live("offset");
@@ -244,6 +245,7 @@ impl<P: Pins> LinuxCnc<P> {
             frame: if bit("tcp") { Frame::Workpiece } else { Frame::Machine },
             tool_length_mm: Some(tool_length),
             standing_tip_mm: None,
+            block: block(pins.number(at.begin + 4)),
         };
         (raw, seen)
     }
@@ -329,6 +331,12 @@ impl<P: Pins> Control for LinuxCnc<P> {
     fn is_volatile(&self) -> bool {
         true
     }
+}
+
+/// The line that is executed; LinuxCNC says 0 between programs.
+#[expect(clippy::cast_possible_truncation, reason = "a line of a program; it saturates")]
+fn block(line: f64) -> Option<Block> {
+    Some(Block { program: 0, number: line as i32 }).filter(|block| block.number > 0)
 }
 
 /// The tip that the control counts, against the one of the machine file: they differ by the zero of the program only.

@@ -164,6 +164,13 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// An event that changes nothing; one that cannot be kept does not end a run.
+    pub fn say(&mut self, now_s: f64, event: &str, what: String) {
+        let (event, offsets) = (event.to_owned(), Vec::new());
+        let event = Event { at_s: now_s, date_s: date_s(), event, what, offsets };
+        let _ = self.store.event(&event);
+    }
+
     /// A zero that was taken or cleared is kept; what was set at the start is kept already.
     fn keep_datum(&mut self, now_s: f64, input: &CycleInput, output: &CycleOutput) {
         let Some(outcome) = &output.datum else { return };

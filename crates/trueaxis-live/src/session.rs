@@ -11,6 +11,7 @@ use crate::governor::{Order, State};
 use crate::history::{HISTORY_S, Peaks, heading, line};
 use crate::metrics::prometheus;
 use crate::mock::MockServer;
+use crate::part::PartOfRun;
 use crate::run::{Cycle, Run, Wish};
 use crate::start::{connect, connect_linuxcnc, mock_of, owner, sensors_of};
 use crate::status::{LiveState, folder_of, is_lagging, live_state, status_json};
@@ -243,6 +244,7 @@ fn drive(
     let asked = std::cell::Cell::new(false);
     let (columns, mut peaks, mut kept_s) = (heading(plan), Peaks::default(), 0.0);
     let mut last: Option<LiveState> = None;
+    let mut part = PartOfRun::default();
     run.go(
         clock,
         plan.period_s,
@@ -259,6 +261,7 @@ fn drive(
         |run, cycle| {
             gone.set(is_gone(cycle) && !cycle.input.run);
             peaks.add(plan, cycle, run.correction());
+            part.cycle(plan, cycle, run);
             let due = last.as_ref().is_none_or(|last| {
                 let order = &cycle.output.order;
                 cycle.input.now_s - last.time_s >= STATE_S
@@ -267,7 +270,9 @@ fn drive(
                     || last.lagging != is_lagging(plan, cycle)
             });
             if due || gone.get() {
+                part.ask(plan, cycle.input.now_s, run);
                 let state = live_state(plan, identity, cycle, run.correction(), run.counts());
+                let state = LiveState { part: part.name().map(str::to_owned), ..state };
                 let said = format!("{:8.1} s  {}: {}", state.time_s, state.state, state.reason);
                 let same = last.as_ref().is_some_and(|last| {
                     last.state == state.state && last.cause.is_like(&state.cause)
@@ -293,6 +298,7 @@ fn drive(
             }
         },
     );
+    part.end(clock.now_s(), &mut run);
     // why: `go` makes a cycle before it can end: at 0 s nothing is over, unless it is stopped at once.
     last.unwrap_or_else(|| {
         let cycle = run.cycle(clock, Wish::default());

@@ -82,6 +82,9 @@ pub struct LiveState {
     pub lagging: bool,
     /// An axis stands outside its travel: its error is that of the end.
     pub outside_travel: bool,
+    /// The part whose record is filled; null without one.
+    #[serde(default)]
+    pub part: Option<String>,
     /// Cycles so far.
     pub cycles: u64,
     /// Periods in which no cycle began.
@@ -199,6 +202,7 @@ pub fn live_state(
         near_limit: order.near_limit,
         lagging: is_lagging(plan, cycle),
         outside_travel: cycle.output.target.as_ref().is_some_and(|t| t.is_clamped),
+        part: None,
         cycles: counts.cycles,
         missed: counts.missed,
         writes: counts.writes,
@@ -393,7 +397,8 @@ pub fn state_report<'a>(report: Report<'a>, last: &LiveState) -> Report<'a> {
         "{} cycles, {} periods missed, {} writes, {} failed",
         last.cycles, last.missed, last.writes, last.failed_writes
     );
-    report
+    let part = last.part.iter().map(|part| format!("part {part} is recorded"));
+    part.fold(report, Report::line)
         .line(format!(
             "{}: {} ({} s after the start)",
             last.state,

@@ -5,11 +5,13 @@ mod disk;
 mod history;
 mod latest;
 mod memory;
+mod part;
 
 pub use datum::{KeptDatum, ask_datum, kept_datum};
 pub use disk::{DiskStore, StoreFault, ask_stop, is_running, last_events, last_state, own_folder};
 pub use history::history_lines;
 pub use memory::{MemoryStore, Noted};
+pub use part::{PartFault, begin_part, end_part, part_now, part_path, parts};
 
 use crate::control::Identity;
 use crate::cycle::CycleInput;
@@ -86,6 +88,27 @@ pub trait Store {
 
     /// A line of the history, under these headings; a line that the disk is too slow for is lost.
     fn history(&mut self, _heading: &str, _line: String) {}
+
+    /// The part that a person says is being made.
+    fn part(&mut self) -> Option<String> {
+        None
+    }
+
+    /// Goes on with the record of a part under these headings; without a name it ends.
+    ///
+    /// # Errors
+    /// Why it cannot be filled.
+    fn open_part(&mut self, _part: Option<&str>, _heading: &str) -> Result<(), String> {
+        Ok(())
+    }
+
+    /// A line of the record of the part that is open.
+    ///
+    /// # Errors
+    /// It is lost.
+    fn part_line(&mut self, _line: String) -> Result<(), String> {
+        Ok(())
+    }
 
     /// Whether another process has asked for the end of this run.
     fn is_stop_asked(&mut self) -> bool {

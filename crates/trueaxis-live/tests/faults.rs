@@ -112,6 +112,17 @@ fn one_lost() -> String {
     is_in(&rig, State::Hold, "workpiece sensor workpiece");
     is_there(&rig);
     assert!(rig.mock.borrow().hold_is_asked(), "feed hold is asked for");
+    // The program stands: it does not go on because it has stopped.
+    let stands = rig.mock.borrow().programmed();
+    for _ in 0..200 {
+        rig.cycle();
+        assert!(rig.mock.borrow().hold_is_asked());
+        assert_eq!(rig.mock.borrow().programmed(), stands);
+    }
+    rig.sensors.borrow_mut().silent[2] = false;
+    rig.pass(3.0);
+    assert_eq!(rig.state(), State::Run);
+    assert!(!rig.mock.borrow().hold_is_asked());
     rig.story() + "; feed hold asked for"
 }
 

@@ -101,6 +101,7 @@ fn run(random: &mut Random, steps: u32, counted: &mut Counted) {
         frame: Frame::Machine,
         tool_length_mm: None,
         standing_tip_mm: None,
+        block: None,
     };
     let mut plant = Plant { seen, pending: Vec::new() };
     let (mut now_s, mut target, mut linked) = (0.0, vec![0.0; axes], true);

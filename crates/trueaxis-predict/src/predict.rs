@@ -6,6 +6,7 @@
 //!       └─ tolerances ──judge──> verdict
 //! ```
 
+pub mod acted;
 mod budget;
 mod correction;
 mod cutting;

@@ -5,7 +5,7 @@ use super::codec::{Call, Reply, Scaled, answers, ask, i32_at};
 use super::pmc::{PmcAddress, PmcAreas, PmcBit};
 use super::status::refusal;
 use super::wire::Wire;
-use crate::control::{Control, Identity, LinkFault, Mode, Seen, Sent};
+use crate::control::{Block, Control, Identity, LinkFault, Mode, Seen, Sent};
 use crate::pose::Frame;
 
 /// More axes no control has.
@@ -70,7 +70,10 @@ impl<W: Wire> Fanuc<W> {
             self.wire.reset(now_s);
             LinkFault::Garbage { reason: fault.to_string() }
         })?;
-        match replies.iter().zip(calls).find(|(reply, _)| reply.status != 0) {
+        // Which block runs is for the record only: a control that does not say is none that refuses.
+        let counts = |asked: &Call| !matches!(asked.code, call::PROGRAM | call::SEQUENCE);
+        let refused = |(reply, asked): &(&Reply, &Call)| reply.status != 0 && counts(asked);
+        match replies.iter().zip(calls).find(refused) {
             None => Ok(replies),
             Some((reply, asked)) => Err(LinkFault::Refused {
                 call: named(asked.code).to_owned(),
@@ -120,6 +123,8 @@ fn named(code: u16) -> &'static str {
         call::READ_ZERO => "cnc_rdzofs",
         call::WRITE_ZERO => "cnc_wrzofs",
         call::SYSTEM => "cnc_sysinfo",
+        call::PROGRAM => "cnc_rdprgnum",
+        call::SEQUENCE => "cnc_rdseqnum",
         call::STATUS => "cnc_statinfo",
         call::FEED => "cnc_actf",
         call::POSITION => "cnc_machine",
@@ -181,6 +186,12 @@ fn status(reply: &Reply) -> Result<Status, LinkFault> {
     })
 }
 
+/// The block that runs; none where the control gives no sequence number.
+fn block(program: &Reply, sequence: &Reply) -> Option<Block> {
+    let number = |reply: &Reply| i32_at(&reply.data, 0).filter(|_| reply.status == 0);
+    Some(Block { program: number(program).unwrap_or(0), number: number(sequence)? })
+}
+
 impl<W: Wire> Control for Fanuc<W> {
     fn identity(&mut self, now_s: f64) -> Result<Identity, LinkFault> {
         let calls = [
@@ -217,6 +228,8 @@ impl<W: Wire> Control for Fanuc<W> {
             Call::cnc(call::POSITION, [1, -1, 0, 0]),
             Call::cnc(call::FEED, [0; 4]),
             Call::cnc(call::STATUS, [0; 4]),
+            Call::cnc(call::PROGRAM, [0; 4]),
+            Call::cnc(call::SEQUENCE, [0; 4]),
         ];
         let mut pmc =
             vec![read_pmc(settings.referenced, 1, 0), read_pmc(settings.inhibit.byte, 1, 0)];
@@ -239,7 +252,7 @@ impl<W: Wire> Control for Fanuc<W> {
             }
             _ => {
                 let one = |reply: &Reply| i32_at(&reply.data, 0).ok_or_else(|| unreadable(reply));
-                let offsets = cnc[3..].iter().map(one).collect::<Result<Vec<i32>, _>>()?;
+                let offsets = cnc[5..].iter().map(one).collect::<Result<Vec<i32>, _>>()?;
                 (offsets, None, false)
             }
         };
@@ -261,6 +274,7 @@ impl<W: Wire> Control for Fanuc<W> {
             frame: Frame::Machine,
             tool_length_mm: None,
             standing_tip_mm: None,
+            block: block(&cnc[3], &cnc[4]),
         })
     }
 

@@ -14,6 +14,8 @@ const NO_FUNCTION: i16 = 1;
 const LENGTH: i16 = 2;
 const NUMBER: i16 = 3;
 const ATTRIBUTE: i16 = 4;
+/// The program that runs.
+const MOCK_PROGRAM: i32 = 1;
 /// No client reads a longer range at once.
 const LONGEST_RANGE: usize = 1024;
 
@@ -42,6 +44,9 @@ impl FanucMock {
             (1, call::SYSTEM) => Ok(self.system()),
             (1, call::AXIS_NAMES) => Ok(self.axis_names()),
             (1, call::STATUS) => Ok(self.status()),
+            (1, call::PROGRAM | call::SEQUENCE) if self.faults.without_blocks => Err(NO_FUNCTION),
+            (1, call::PROGRAM) => Ok([MOCK_PROGRAM.to_be_bytes(); 2].concat()),
+            (1, call::SEQUENCE) => Ok(self.sequence().to_be_bytes().to_vec()),
             (1, call::FEED) => Ok(scaled(self.feed(), 0).bytes().to_vec()),
             (1, call::POSITION) => self.positions(asked.arguments),
             (1, call::READ_ZERO) => self.read_ext(asked.arguments),

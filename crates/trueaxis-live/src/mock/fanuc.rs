@@ -55,6 +55,8 @@ pub struct Faults {
     pub mode: Mode,
     /// Probing or threading.
     pub inhibited: bool,
+    /// It does not say which block runs.
+    pub without_blocks: bool,
 }
 
 impl Default for Faults {
@@ -71,6 +73,7 @@ impl Default for Faults {
             unhomed: false,
             mode: Mode::Automatic,
             inhibited: false,
+            without_blocks: false,
         }
     }
 }
@@ -229,6 +232,11 @@ impl FanucMock {
             positions[*axis] += f64::from(acting) * increment;
         }
         positions
+    }
+
+    /// The sequence number: N10 goes to the first stop and stays there, N20 to the second one.
+    pub(super) fn sequence(&self) -> i32 {
+        i32::try_from(10 * (self.plan.path.block() + 1)).unwrap_or(i32::MAX)
     }
 
     pub(super) fn feed(&self) -> f64 {

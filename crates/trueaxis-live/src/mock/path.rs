@@ -69,6 +69,12 @@ impl MockPath {
         pairs.map(|(a, b)| a + (b - a) * part).collect()
     }
 
+    /// The stop that is stayed at, or gone to.
+    pub fn block(&self) -> usize {
+        let stays = self.since_s < self.stops[self.from].dwell_s;
+        if stays { self.from } else { (self.from + 1) % self.stops.len() }
+    }
+
     /// The feed now.
     pub fn feed_mm_per_min(&self) -> f64 {
         if self.part() > 0.0 { self.feed_mm_per_min } else { 0.0 }

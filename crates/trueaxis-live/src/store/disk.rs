@@ -1,5 +1,5 @@
 //! A store in a folder of its own: `lock`, `owned`, `journal.jsonl`, `state.json`, `metrics.prom`, `history.csv`,
-//! `datum.json`, `stop`.
+//! `datum.json`, `parts/`, `part`, `stop`.
 //!
 //! `owned` has two lines of fixed length that are written in turn, each with a number and a checksum: a run that is killed
 //! while it writes one leaves the other. The journal only grows by events, never by cycles.
@@ -7,6 +7,7 @@
 use super::datum::{KeptDatum, asked, keep};
 use super::history::History;
 use super::latest::Latest;
+use super::part::{PartFile, part_now};
 use super::{Event, Owner, Store};
 use crate::clock::date_s;
 use crate::control::Identity;
@@ -50,6 +51,7 @@ pub struct DiskStore {
     state: Latest,
     metrics: Latest,
     history: Option<History>,
+    part: Option<PartFile>,
     /// The plan that a zero of the part belongs to.
     plan_hash: String,
     /// Held as long as the run lasts.
@@ -184,6 +186,7 @@ impl DiskStore {
             state: Latest::of(folder.join("state.json")),
             metrics: Latest::of(folder.join("metrics.prom")),
             history: None,
+            part: None,
             plan_hash: String::new(),
             _lock: lock,
         };
@@ -271,6 +274,20 @@ impl Store for DiskStore {
     fn history(&mut self, heading: &str, line: String) {
         let new = || History::of(self.folder.clone(), heading.to_owned());
         self.history.get_or_insert_with(new).add(line);
+    }
+
+    fn part(&mut self) -> Option<String> {
+        part_now(&self.folder)
+    }
+
+    fn open_part(&mut self, part: Option<&str>, heading: &str) -> Result<(), String> {
+        self.part = None;
+        self.part = part.map(|name| PartFile::open(&self.folder, name, heading)).transpose()?;
+        Ok(())
+    }
+
+    fn part_line(&mut self, line: String) -> Result<(), String> {
+        self.part.as_ref().map_or(Ok(()), |part| part.add(line))
     }
 
     fn is_stop_asked(&mut self) -> bool {

@@ -20,6 +20,10 @@ pub struct Noted {
     pub fails: bool,
     /// The zero of the part.
     pub datum: Option<Datum>,
+    /// The part that is made.
+    pub part: Option<String>,
+    /// The lines of all records.
+    pub part_lines: Vec<String>,
     /// Whether cycles are recorded.
     pub records: bool,
 }
@@ -54,6 +58,16 @@ impl Store for MemoryStore {
     fn datum(&mut self, datum: Option<&Datum>) -> Result<(), String> {
         self.unless_failing()?;
         self.0.borrow_mut().datum = datum.cloned();
+        Ok(())
+    }
+
+    fn part(&mut self) -> Option<String> {
+        self.0.borrow().part.clone()
+    }
+
+    fn part_line(&mut self, line: String) -> Result<(), String> {
+        self.unless_failing()?;
+        self.0.borrow_mut().part_lines.push(line);
         Ok(())
     }
 

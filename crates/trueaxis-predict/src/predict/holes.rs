@@ -4,6 +4,7 @@
 //! machine and that of the workpiece no longer cancel.
 
 use super::Error;
+use super::acted::{ActedRecord, ActedRow, SAME_PLACE_MM, machine_then, moved};
 use super::location::LocationCircle;
 use super::temperatures::{CuttingClock, RunningTemperatures, StudyTemperatures};
 use std::path::Path;
@@ -43,6 +44,25 @@ impl Compensation {
     }
 }
 
+/// What the holes of a set are made with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Applied {
+    /// A compensation that is computed.
+    By(Compensation),
+    /// What a record says that acted.
+    Acted,
+}
+
+impl Applied {
+    /// Its name in files, reports and JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::By(compensation) => compensation.name(),
+            Self::Acted => "acted",
+        }
+    }
+}
+
 /// Holes evenly on a circle, on a machine at temperatures.
 #[derive(Debug)]
 pub struct HoleStudy {
@@ -61,7 +81,11 @@ pub struct HoleStudy {
     /// The least increment of a compensation value, mm.
     pub increment_mm: f64,
     /// Which compensation is on: the verdict is about it.
-    pub applied: Compensation,
+    pub applied: Applied,
+    /// The record of a live run, of a part that is made.
+    pub acted: Option<ActedRecord>,
+    /// The study states temperatures; those of a record are not used then.
+    pub states_temperatures: bool,
 }
 
 /// One hole under one compensation.
@@ -88,7 +112,7 @@ impl Hole {
 #[derive(Debug, Clone, PartialEq)]
 pub struct HoleSet {
     /// Which one.
-    pub compensation: Compensation,
+    pub compensation: Applied,
     /// In the order of the study.
     pub holes: Vec<Hole>,
     /// The largest distance from its place, mm.
@@ -114,14 +138,14 @@ impl HoleSet {
 /// All that was found out about the holes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HolePrediction {
-    /// None, machine, comprehensive.
-    pub sets: [HoleSet; 3],
+    /// None, machine, comprehensive, and what acted where there is a record.
+    pub sets: Vec<HoleSet>,
     /// The same at the temperatures of the start, held, where a log runs on.
-    pub held: Option<[HoleSet; 3]>,
-    /// When each hole is made, s from the start; all 0 without a log.
+    pub held: Option<Vec<HoleSet>>,
+    /// When each hole is made, s from the start; all 0 without a log or a record.
     pub times_s: Vec<f64>,
-    /// What the reader must know.
-    pub warnings: Vec<String>,
+    /// What the reader must know, each with its code.
+    pub warnings: Vec<(&'static str, String)>,
     /// What grows though the uncertainty of its coefficient is not stated: u lacks it.
     pub without_u: Vec<String>,
 }
@@ -159,25 +183,16 @@ fn read(root: &Section<'_>, path: &Path) -> Option<HoleStudy> {
     let machine = machine_of(root, path).map(|(_, machine)| machine);
     let folder = path.parent().unwrap_or(Path::new(""));
     let temperatures = StudyTemperatures::read(root, folder, false);
-    let machine = machine.and_then(|m| temperatures.warm(root, m));
+    let states_temperatures = temperatures.conditions.is_some();
     let holes = root.section("holes", read_holes).flatten();
-    let compensation = root.section("compensation", |s| {
-        let increment_mm = s.quantity("increment", Dimension::Length);
-        let applied = s.get("applied").and_then(|item| {
-            let word = item.text()?;
-            let found = Compensation::ALL.into_iter().find(|c| c.name() == word);
-            if found.is_none() {
-                let message = format!("`{word}` is no compensation");
-                item.error("unknown-word", message, "none, machine or comprehensive");
-            }
-            found
-        });
-        if increment_mm.is_some_and(|i| i <= 0.0) {
-            s.error("not-positive", "an increment is above zero".into(), "such as \"1 um\"");
-        }
-        (increment_mm, applied)
-    });
-    let (increment_mm, applied) = compensation.unwrap_or_default();
+    let compensation =
+        root.section("compensation", |s| read_compensation(s, folder, machine.as_ref()));
+    let Stated { increment_mm, applied, acted, names_record } = compensation.unwrap_or_default();
+    let machine = match names_record && !states_temperatures {
+        // Each hole at the temperatures of its row.
+        true => machine,
+        false => machine.and_then(|m| temperatures.warm(root, m)),
+    };
     let (holes_mm, [tolerance_mm, location_tolerance_mm]) = holes?;
     Some(HoleStudy {
         name: name?.to_owned(),
@@ -187,8 +202,45 @@ fn read(root: &Section<'_>, path: &Path) -> Option<HoleStudy> {
         tolerance_mm,
         location_tolerance_mm,
         increment_mm: increment_mm.unwrap_or(1e-3),
-        applied: applied.unwrap_or(Compensation::None),
+        applied: match acted {
+            Some(_) => Applied::Acted,
+            None => Applied::By(applied.unwrap_or(Compensation::None)),
+        },
+        acted,
+        states_temperatures,
     })
+}
+
+/// What `[compensation]` says.
+#[derive(Default)]
+struct Stated {
+    increment_mm: Option<f64>,
+    applied: Option<Compensation>,
+    acted: Option<ActedRecord>,
+    /// Sound or not.
+    names_record: bool,
+}
+
+fn read_compensation(section: &Section<'_>, folder: &Path, machine: Option<&Machine>) -> Stated {
+    let increment_mm = section.quantity("increment", Dimension::Length);
+    let names_record = section.get("acted").is_some();
+    let applied = section.get("applied").and_then(|item| {
+        let word = item.text()?;
+        let found = Compensation::ALL.into_iter().find(|c| c.name() == word);
+        if found.is_none() {
+            let message = format!("`{word}` is no compensation");
+            item.error("unknown-word", message, "none, machine or comprehensive");
+        } else if names_record {
+            let message = "`applied` and `acted` exclude each other".to_owned();
+            item.error("contradiction", message, "with a record the verdict is about what acted");
+        }
+        found
+    });
+    if increment_mm.is_some_and(|i| i <= 0.0) {
+        section.error("not-positive", "an increment is above zero".into(), "such as \"1 um\"");
+    }
+    let acted = machine.and_then(|machine| ActedRecord::named(section, folder, machine));
+    Stated { increment_mm, applied, acted, names_record }
 }
 
 fn read_holes(section: &Section<'_>) -> Option<(Vec<Vec3>, [Option<f64>; 2])> {
@@ -250,13 +302,23 @@ pub fn compensation_increments(error_mm: f64, increment_mm: f64) -> i64 {
 /// # Source
 /// Zhang et al. 2019, section 2 and 3.
 pub fn predict_holes(study: &HoleStudy) -> Result<HolePrediction, Diagnostics> {
+    let made = study.made()?;
     let running = study.temperatures.as_ref();
-    let sets = drill_all(study, running)?;
-    let held = running.map(|_| drill_all(study, None)).transpose()?;
+    let sets = drill_all(study, &made, running)?;
+    let held = running.map(|_| drill_all(study, &made, None)).transpose()?;
     let clock = study.clock(running);
-    let times_s = (0..study.holes_mm.len()).map(|i| clock.time_s(i)).collect();
+    let begun_s = made.first().map_or(0.0, |hole| hole.row.time_s);
+    let time = |i: usize| made.get(i).map_or(clock.time_s(i), |hole| hole.row.time_s - begun_s);
+    let times_s = (0..study.holes_mm.len()).map(time).collect();
     let without_u = study.machine.coefficients_without_u();
-    Ok(HolePrediction { warnings: warnings(&sets), sets, held, times_s, without_u })
+    Ok(HolePrediction { warnings: warnings(&sets, &made), sets, held, times_s, without_u })
+}
+
+/// A hole that a record knows of.
+struct Made<'a> {
+    row: &'a ActedRow,
+    /// At the temperatures of its row; none where the study states some.
+    machine: Option<Machine>,
 }
 
 impl HoleStudy {
@@ -266,62 +328,113 @@ impl HoleStudy {
         shares.push(self.holes_mm.len() as f64);
         CuttingClock::along(&self.machine, running, &shares)
     }
+
+    /// The row of each hole; none of them without a record.
+    fn made(&self) -> Result<Vec<Made<'_>>, Diagnostics> {
+        let Some(record) = &self.acted else { return Ok(Vec::new()) };
+        let mut problems = Diagnostics::new();
+        let mut made = Vec::with_capacity(self.holes_mm.len());
+        for (i, place) in self.holes_mm.iter().enumerate() {
+            let found = felt(&self.machine, *place).and_then(|(command, _)| {
+                let row = record.at(&self.machine, &command).ok_or_else(|| no_row(record))?;
+                Ok(Made { row, machine: machine_then(self, row)? })
+            });
+            match found {
+                Ok(hole) => made.push(hole),
+                Err(why) => problems.error(
+                    "not-in-record",
+                    Place::whole(&record.file),
+                    format!("hole {}: {why}", i + 1),
+                    "name the record of this part, and place the circle as it was on the machine",
+                ),
+            }
+        }
+        if problems.has_errors() { Err(problems) } else { Ok(made) }
+    }
+}
+
+fn no_row(record: &ActedRecord) -> String {
+    let rows = record.rows.len();
+    format!("none of the {rows} rows is within {SAME_PLACE_MM} mm of its place")
 }
 
 fn drill_all(
     study: &HoleStudy,
+    made: &[Made<'_>],
     running: Option<&RunningTemperatures>,
-) -> Result<[HoleSet; 3], Diagnostics> {
+) -> Result<Vec<HoleSet>, Diagnostics> {
     let mut problems = Diagnostics::new();
+    let acted = study.acted.as_ref().map(|_| Applied::Acted);
+    let all = Compensation::ALL.map(Applied::By).into_iter().chain(acted);
+    let sets = all.map(|applied| drill_set(study, (made, running), applied, &mut problems));
+    let sets = sets.collect();
+    if problems.has_errors() { Err(problems) } else { Ok(sets) }
+}
+
+fn drill_set(
+    study: &HoleStudy,
+    (made, running): (&[Made<'_>], Option<&RunningTemperatures>),
+    applied: Applied,
+    problems: &mut Diagnostics,
+) -> HoleSet {
+    let is_first = applied == Applied::By(Compensation::None);
     let mut told = |i: usize, message: String, hint: &str| {
         let message = format!("hole {}{message}", i + 1);
         problems.error("unreachable-hole", Place::whole(&study.name), message, hint);
     };
-    let sets = Compensation::ALL.map(|compensation| {
-        let mut clock = study.clock(running);
-        let centre = study.holes_mm.iter().sum::<Vec3>() / study.holes_mm.len() as f64;
-        let mut holes = Vec::with_capacity(study.holes_mm.len());
-        let mut outwards_mm = Vec::with_capacity(study.holes_mm.len());
-        for (i, place) in study.holes_mm.iter().enumerate() {
-            let machine = match clock.machine_at(i) {
-                Ok(machine) => machine.unwrap_or(&study.machine),
-                Err(ends) if compensation == Compensation::None => {
-                    told(i, format!(": {}", log_end(&ends)), "take a longer log, or start earlier");
-                    break;
-                }
-                Err(_) => break,
-            };
-            match drill(machine, study.increment_mm, *place, compensation) {
-                Ok((hole, effects)) => {
-                    let out = (place - centre).xy().try_normalize(1e-12).unwrap_or_default();
-                    outwards_mm.push(effects.iter().map(|effect| out.dot(&effect.xy())).collect());
-                    holes.push(hole);
-                }
-                Err(message) if compensation == Compensation::None => {
-                    told(i, format!(": {message}"), "move the circle, or extend the table");
-                }
-                // The same hole was reported already, or lies at the very end of a table.
-                Err(message) => told(i, format!(", compensated: {message}"), ""),
+    let mut clock = study.clock(running);
+    let centre = study.holes_mm.iter().sum::<Vec3>() / study.holes_mm.len() as f64;
+    let mut holes = Vec::with_capacity(study.holes_mm.len());
+    let mut outwards_mm = Vec::with_capacity(study.holes_mm.len());
+    for (i, place) in study.holes_mm.iter().enumerate() {
+        let of_time = match clock.machine_at(i) {
+            Ok(machine) => machine.unwrap_or(&study.machine),
+            Err(ends) if is_first => {
+                told(i, format!(": {}", log_end(&ends)), "take a longer log, or start earlier");
+                break;
             }
+            Err(_) => break,
+        };
+        let hole = made.get(i);
+        let machine = hole.and_then(|hole| hole.machine.as_ref()).unwrap_or(of_time);
+        let drilled = match (applied, hole) {
+            (Applied::By(compensation), _) => {
+                drill(machine, study.increment_mm, *place, compensation)
+            }
+            (Applied::Acted, Some(hole)) => {
+                drilled_with(machine, study.increment_mm, *place, hole.row)
+            }
+            (Applied::Acted, None) => break,
+        };
+        match drilled {
+            Ok((hole, effects)) => {
+                let out = (place - centre).xy().try_normalize(1e-12).unwrap_or_default();
+                outwards_mm.push(effects.iter().map(|effect| out.dot(&effect.xy())).collect());
+                holes.push(hole);
+            }
+            Err(message) if is_first => {
+                told(i, format!(": {message}"), "move the circle, or extend the table");
+            }
+            // The same hole was reported already, or lies at the very end of a table.
+            Err(message) => told(i, format!(", compensated: {message}"), ""),
         }
-        let worst = holes.iter().max_by(|a, b| a.distance_mm().total_cmp(&b.distance_mm()));
-        let worst_mm = worst.map_or(0.0, Hole::distance_mm);
-        let u_worst_mm = worst.map_or(0.0, |h| h.u_distance_mm);
-        let in_tolerance = study.tolerance_mm.map(|t| worst_mm <= t);
-        let location = LocationCircle::of(&study.holes_mm, &holes, &outwards_mm);
-        let allowed = study.location_tolerance_mm.zip(location);
-        let location_in_tolerance = allowed.map(|(t, circle)| circle.largest_mm().0.abs() <= t);
-        HoleSet {
-            compensation,
-            holes,
-            worst_mm,
-            u_worst_mm,
-            in_tolerance,
-            location_in_tolerance,
-            location,
-        }
-    });
-    if problems.has_errors() { Err(problems) } else { Ok(sets) }
+    }
+    let worst = holes.iter().max_by(|a, b| a.distance_mm().total_cmp(&b.distance_mm()));
+    let worst_mm = worst.map_or(0.0, Hole::distance_mm);
+    let u_worst_mm = worst.map_or(0.0, |h| h.u_distance_mm);
+    let in_tolerance = study.tolerance_mm.map(|t| worst_mm <= t);
+    let location = LocationCircle::of(&study.holes_mm, &holes, &outwards_mm);
+    let allowed = study.location_tolerance_mm.zip(location);
+    let location_in_tolerance = allowed.map(|(t, circle)| circle.largest_mm().0.abs() <= t);
+    HoleSet {
+        compensation: applied,
+        holes,
+        worst_mm,
+        u_worst_mm,
+        in_tolerance,
+        location_in_tolerance,
+        location,
+    }
 }
 
 fn log_end(ends: &Error) -> String {
@@ -333,15 +446,27 @@ fn log_end(ends: &Error) -> String {
     }
 }
 
-fn warnings(sets: &[HoleSet; 3]) -> Vec<String> {
-    let [before, machine, comprehensive] = sets.each_ref().map(|s| s.worst_mm);
+fn warnings(sets: &[HoleSet], made: &[Made<'_>]) -> Vec<(&'static str, String)> {
     let mut warnings = Vec::new();
-    if machine > before {
-        warnings.push(format!(
-            "COMPENSATING THE MACHINE ALONE MAKES THE PART WORSE: {:.3} mm instead of {before:.3} mm; \
+    if let [before, machine, comprehensive, ..] = sets
+        && machine.worst_mm > before.worst_mm
+    {
+        let message = format!(
+            "COMPENSATING THE MACHINE ALONE MAKES THE PART WORSE: {:.3} mm instead of {:.3} mm; \
              the workpiece grows more than the scales; the comprehensive compensation leaves {:.3} mm",
-            machine, comprehensive
-        ));
+            machine.worst_mm, before.worst_mm, comprehensive.worst_mm
+        );
+        warnings.push(("machine-only-compensation", message));
+    }
+    let held = made.iter().enumerate().filter(|(_, hole)| !hole.row.followed);
+    let held: Vec<String> = held.map(|(i, _)| (i + 1).to_string()).collect();
+    if !held.is_empty() {
+        let message = format!(
+            "the correction did not follow its target from the beginning to the end of the block (it was off, held, or \
+             on its way back): hole {}",
+            held.join(", ")
+        );
+        warnings.push(("did-not-follow", message));
     }
     warnings
 }
@@ -366,6 +491,23 @@ fn drill(
     let error_mm = added + machine.deviation(&command, &errors).tip_mm;
     let effects = effects(machine, &command, &errors);
     let (u_mm, u_distance_mm) = uncertainty(&effects, error_mm);
+    Ok((Hole { increments, error_mm, u_mm, u_distance_mm }, effects))
+}
+
+/// The same with the offsets that acted.
+fn drilled_with(
+    machine: &Machine,
+    increment_mm: f64,
+    place: Vec3,
+    row: &ActedRow,
+) -> Result<(Hole, Vec<Vec3>), String> {
+    let (command, _) = felt(machine, place)?;
+    let (added, there) = moved(machine, &command, row);
+    let errors = machine.errors_at(&there, &Approach::default()).map_err(|e| e.to_string())?;
+    let error_mm = added + machine.deviation(&there, &errors).tip_mm;
+    let effects = effects(machine, &there, &errors);
+    let (u_mm, u_distance_mm) = uncertainty(&effects, error_mm);
+    let increments = [0, 1, 2].map(|i| compensation_increments(-added[i], increment_mm));
     Ok((Hole { increments, error_mm, u_mm, u_distance_mm }, effects))
 }
 

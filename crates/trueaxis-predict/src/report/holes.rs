@@ -1,11 +1,12 @@
 //! A prediction for holes in text and on a page.
 
 use super::holes_pictures::plans;
-use crate::predict::holes::{HolePrediction, HoleSet, HoleStudy};
+use crate::predict::holes::{Applied, HolePrediction, HoleSet, HoleStudy};
 use trueaxis_report::{Columns, Report, Section, Standing, Table};
 
 /// Each compensation in words.
-const NAMES: [&str; 3] = ["without compensation", "machine only", "comprehensive"];
+const NAMES: [&str; 4] =
+    ["without compensation", "machine only", "comprehensive", "with what acted"];
 
 /// The prediction.
 pub fn holes_report<'a>(study: &'a HoleStudy, prediction: &'a HolePrediction) -> Report<'a> {
@@ -16,8 +17,12 @@ pub fn holes_report<'a>(study: &'a HoleStudy, prediction: &'a HolePrediction) ->
         None => (Standing::Open, "NO VERDICT", "the study states no tolerance".to_owned()),
     };
     let near = applied.and_then(|set| near_limit(study, set)).unwrap_or_default();
-    let sentence = format!("{sentence}, with compensation: {}{near}", study.applied.name());
-    let warnings = prediction.warnings.iter().map(|w| format!("WARNING: {w}"));
+    let with = match study.applied {
+        Applied::By(compensation) => format!("with compensation: {}", compensation.name()),
+        Applied::Acted => "with what acted while it was made".to_owned(),
+    };
+    let sentence = format!("{sentence}, {with}{near}");
+    let warnings = prediction.warnings.iter().map(|(_, w)| format!("WARNING: {w}"));
     Report::new(&study.name)
         .line(format!("{}, {}", study.machine.name(), study.machine.chain_text()))
         .verdict(standing, word, sentence)
@@ -151,17 +156,18 @@ fn location<'a>(study: &HoleStudy, prediction: &HolePrediction) -> Section<'a> {
 
 fn holes<'a>(study: &HoleStudy, prediction: &HolePrediction) -> Section<'a> {
     let mut headings: Vec<String> = ["hole", "x, mm", "y, mm"].map(String::from).into();
-    if study.temperatures.is_some() {
+    let has_times = study.temperatures.is_some() || study.acted.is_some();
+    if has_times {
         headings.push("after, s".to_owned());
     }
-    for name in ["none", "machine", "comprehensive"] {
+    for name in prediction.sets.iter().map(|set| set.compensation.name()) {
         headings.extend([format!("dx, {name}"), format!("dy, {name}")]);
     }
     headings.extend(["u(dx)", "u(dy)"].map(String::from));
     let rows = study.holes_mm.iter().enumerate().map(|(i, place)| {
         let mut row =
             vec![(i + 1).to_string(), format!("{:.3}", place.x), format!("{:.3}", place.y)];
-        if study.temperatures.is_some() {
+        if has_times {
             row.push(format!("{:.0}", prediction.times_s[i]));
         }
         let errors = prediction.sets.iter().map(|set| set.holes[i].error_mm);
@@ -187,6 +193,10 @@ fn inputs<'a>(study: &HoleStudy, prediction: &HolePrediction) -> Section<'a> {
             "{file}, from {start_s:.1} s of its time, within 0.01 K; the last hole after {last_s:.1} s"
         );
         pairs.push(("temperatures", log));
+    }
+    if let Some(record) = &study.acted {
+        let warm = if study.states_temperatures { "as the study states" } else { "as recorded" };
+        pairs.push(("what acted", format!("{}; temperatures {warm}", record.file)));
     }
     if !prediction.without_u.is_empty() {
         pairs.push(("u lacks", format!("{} (none stated)", prediction.without_u.join(", "))));

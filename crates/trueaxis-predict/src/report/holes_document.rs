@@ -1,6 +1,6 @@
 //! The document of a prediction for holes.
 
-use crate::predict::holes::{Compensation, Hole, HolePrediction, HoleSet, HoleStudy};
+use crate::predict::holes::{Hole, HolePrediction, HoleSet, HoleStudy};
 use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_geometry::Vec3;
@@ -19,12 +19,14 @@ pub struct HolesDocument<'a> {
     pub tolerance_mm: Option<f64>,
     /// The tolerance of the location diameter, either way; null if none is stated, mm.
     pub location_tolerance_mm: Option<f64>,
-    /// The compensation that is applied: `none`, `machine` or `comprehensive`.
+    /// The compensation that is applied: `none`, `machine`, `comprehensive`, or `acted`: what a live run has recorded.
     pub applied: &'static str,
     /// Whether all stated tolerances are kept with it; null if none is stated.
     pub in_tolerance: Option<bool>,
     /// The log that the temperatures follow; null if there is none.
     pub temperature_log: Option<&'a str>,
+    /// The record of what acted; null without one.
+    pub acted_record: Option<&'a str>,
     /// The holes under each compensation.
     pub sets: Vec<SetEntry>,
     /// The same at the temperatures of the start, held; null where no log runs.
@@ -32,13 +34,13 @@ pub struct HolesDocument<'a> {
     /// What grows with the temperature though the uncertainty of its coefficient is not stated: u lacks it.
     pub u_lacks: &'a [String],
     /// What to know of this prediction.
-    pub warnings: &'a [String],
+    pub warnings: Vec<&'a str>,
 }
 
 /// The holes under one compensation.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct SetEntry {
-    /// `none`, `machine` or `comprehensive`.
+    /// `none`, `machine`, `comprehensive` or `acted`.
     pub compensation: &'static str,
     /// The largest distance of a hole from its place in X and Y, mm.
     pub worst_mm: f64,
@@ -89,7 +91,7 @@ pub struct HoleEntry {
 impl<'a> HolesDocument<'a> {
     /// The document of a prediction.
     pub fn of(study: &'a HoleStudy, prediction: &'a HolePrediction) -> Self {
-        let applied = Compensation::ALL.iter().position(|c| *c == study.applied).unwrap_or(0);
+        let applied = prediction.sets.iter().find(|set| set.compensation == study.applied);
         let set = |set: &HoleSet| SetEntry::of(study, prediction, set);
         Self {
             schema: "trueaxis/predict/1",
@@ -98,12 +100,13 @@ impl<'a> HolesDocument<'a> {
             tolerance_mm: study.tolerance_mm,
             location_tolerance_mm: study.location_tolerance_mm,
             applied: study.applied.name(),
-            in_tolerance: prediction.sets[applied].keeps_tolerances(),
+            in_tolerance: applied.and_then(HoleSet::keeps_tolerances),
             temperature_log: study.temperatures.as_ref().map(|t| t.run.log.file()),
+            acted_record: study.acted.as_ref().map(|record| record.file.as_str()),
             sets: prediction.sets.iter().map(set).collect(),
             sets_at_start: prediction.held.as_ref().map(|held| held.iter().map(set).collect()),
             u_lacks: &prediction.without_u,
-            warnings: &prediction.warnings,
+            warnings: prediction.warnings.iter().map(|(_, text)| text.as_str()).collect(),
         }
     }
 }

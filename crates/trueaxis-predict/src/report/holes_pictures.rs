@@ -10,13 +10,13 @@ use trueaxis_report::plots::{
 };
 
 /// The colour of each compensation.
-const SET_COLOURS: [RGBColor; 3] = [COLOURS[0], COLOURS[1], COLOURS[2]];
+const SET_COLOURS: [RGBColor; 4] = [COLOURS[0], COLOURS[1], COLOURS[2], COLOURS[3]];
 
 /// One plan view for each compensation.
 pub(super) fn plans<'a>(
     study: &'a HoleStudy,
     prediction: &'a HolePrediction,
-    names: [&'a str; 3],
+    names: [&'a str; 4],
 ) -> impl Iterator<Item = Figure<'a>> {
     let sets = prediction.sets.iter().zip(SET_COLOURS).zip(names);
     sets.map(move |((set, colour), name)| {

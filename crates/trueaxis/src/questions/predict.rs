@@ -102,8 +102,7 @@ impl Question for Predict {
             }
             PredictInput::Holes(study) => match predict_holes(&study) {
                 Ok(prediction) => {
-                    for warning in &prediction.warnings {
-                        let code = "machine-only-compensation";
+                    for (code, warning) in &prediction.warnings {
                         problems.warn(code, self.place(), warning.clone(), "");
                     }
                     Some(Predicted::Holes(study, Box::new(prediction)))

@@ -1,0 +1,205 @@
+//! What acted while a part was made: the record that a live run keeps of it (`trueaxis live part`).
+//!
+//! ```text
+//!     time_s, block, followed, known, tcp, X_mm, …, X_acted_um, …, scale_x_degC, …
+//! ```
+//!
+//! A row stands at the end of each block, and wherever X and Y have stood. A hole is where they stood last at its place.
+
+use super::holes::HoleStudy;
+use std::path::Path;
+use trueaxis_geometry::Vec3;
+use trueaxis_input::{CsvTable, Diagnostics, Dimension, Place, Section, Unit};
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{AxisKind, Command};
+use trueaxis_machine::errors::ErrorValues;
+use trueaxis_machine::heat::Conditions;
+
+/// A hole is made where X and Y stand within so much of its place. Unit: mm.
+pub const SAME_PLACE_MM: f64 = 0.5;
+
+/// One row of a record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ActedRow {
+    /// The clock of the run. Unit: s.
+    pub time_s: f64,
+    /// Where the program had the axes. Unit: mm or rad.
+    pub at: Command,
+    /// What acted on the axes. Unit: mm or rad.
+    pub by: Command,
+    /// The offsets were added to tip and angles, not to the axes.
+    pub tcp: bool,
+    /// The correction followed its target from the beginning of the block to its end.
+    pub followed: bool,
+    /// The temperatures are those of that time, not the last known ones.
+    pub known: bool,
+    /// The temperatures of that time.
+    pub conditions: Conditions,
+    /// Its line.
+    pub place: Place,
+}
+
+/// The record of one part.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ActedRecord {
+    /// The file as the user named it.
+    pub file: String,
+    /// In the order of time.
+    pub rows: Vec<ActedRow>,
+}
+
+impl ActedRecord {
+    /// The record that `acted` of a section names.
+    pub(super) fn named(section: &Section<'_>, folder: &Path, machine: &Machine) -> Option<Self> {
+        let path = section.get("acted")?.text()?;
+        let path = folder.join(path);
+        let mut problems = Diagnostics::new();
+        let text = section.files().text(&path, "the record of a part", &mut problems);
+        let shown = path.display().to_string();
+        let record = text.and_then(|text| Self::parse(&shown, &text, machine, &mut problems));
+        section.take_over(problems);
+        record
+    }
+
+    /// Reads a record for a machine; a position of every axis that it names must be there.
+    pub fn parse(
+        file: &str,
+        text: &str,
+        machine: &Machine,
+        problems: &mut Diagnostics,
+    ) -> Option<Self> {
+        let mut found = Diagnostics::new();
+        let table = CsvTable::parse(file, text, &mut found);
+        let record = if found.has_errors() { None } else { read(&table, machine, &mut found) };
+        let sound = !found.has_errors();
+        problems.append(found);
+        record.filter(|_| sound)
+    }
+
+    /// The last row at a place: within [`SAME_PLACE_MM`] of it in every linear axis but Z.
+    pub fn at(&self, machine: &Machine, command: &Command) -> Option<&ActedRow> {
+        let same = |row: &&ActedRow| {
+            let mut axes = machine.axes().iter().enumerate().filter(|(_, axis)| is_lateral(axis));
+            axes.all(|(i, _)| (row.at[i] - command[i]).abs() <= SAME_PLACE_MM)
+        };
+        self.rows.iter().rfind(same)
+    }
+}
+
+fn is_lateral(axis: &trueaxis_machine::axis::Axis) -> bool {
+    axis.kind == AxisKind::Linear && axis.name.to_string() != "Z"
+}
+
+/// A column in the inner unit of what follows its last underscore.
+fn column(
+    table: &CsvTable,
+    (name, dimension): (&str, Dimension),
+    problems: &mut Diagnostics,
+) -> Option<Vec<f64>> {
+    let of = |c: &&trueaxis_input::CsvColumn| {
+        let (stem, unit) = c.name.rsplit_once('_').unwrap_or((&c.name, ""));
+        stem == name && Unit::find(unit, dimension).is_ok()
+    };
+    let column = table.columns.iter().find(of)?;
+    let unit = Unit::find(column.name.rsplit_once('_')?.1, dimension).ok()?;
+    table.in_unit(column, unit, problems)
+}
+
+fn read(table: &CsvTable, machine: &Machine, problems: &mut Diagnostics) -> Option<ActedRecord> {
+    let needed = |name: &str, dimension: Dimension, problems: &mut Diagnostics| {
+        let found = column(table, (name, dimension), problems);
+        if found.is_none() && !problems.has_errors() {
+            let message = format!("the record has no column of `{name}`");
+            let hint = "it is written by `trueaxis live part PLAN --begin NAME`, parts/NAME.csv in the folder of the run";
+            problems.error("missing-column", Place::whole(&table.file), message, hint);
+        }
+        found
+    };
+    let times_s = needed("time", Dimension::Time, problems)?;
+    let axes = machine.axes();
+    let (mut at, mut by) = (Vec::new(), Vec::new());
+    for axis in axes {
+        let name = axis.name.to_string();
+        let dimension = match axis.kind {
+            AxisKind::Linear => Dimension::Length,
+            AxisKind::Rotary => Dimension::Angle,
+        };
+        at.push(needed(&name, dimension, problems)?);
+        by.push(column(table, (&format!("{name}_acted"), dimension), problems));
+    }
+    if by.iter().all(Option::is_none) {
+        let message = "the record says of no axis what acted".to_owned();
+        let hint = "a column such as X_acted_um";
+        problems.error("missing-column", Place::whole(&table.file), message, hint);
+        return None;
+    }
+    let flag = |name: &str, row: usize| table.column(name).is_some_and(|c| c.values[row] != 0.0);
+    let sensors: Vec<(String, Vec<f64>)> = table
+        .columns
+        .iter()
+        .filter_map(|c| Some((c.name.strip_suffix("_degC")?.to_owned(), c.values.clone())))
+        .collect();
+    let rows = times_s.iter().enumerate().map(|(row, time_s)| {
+        let of = |columns: &[Vec<f64>]| {
+            let mut command = Command::default();
+            command.iter_mut().zip(columns).for_each(|(to, column)| *to = column[row]);
+            command
+        };
+        let acted: Vec<Vec<f64>> =
+            by.iter().map(|c| c.clone().unwrap_or_else(|| vec![0.0; row + 1])).collect();
+        ActedRow {
+            time_s: *time_s,
+            at: of(&at),
+            by: of(&acted),
+            tcp: flag("tcp", row),
+            followed: flag("followed", row),
+            known: flag("known", row),
+            conditions: sensors.iter().fold(Conditions::default(), |found, (sensor, celsius)| {
+                found.with_reading(sensor, celsius[row])
+            }),
+            place: table.row_place(row),
+        }
+    });
+    Some(ActedRecord { file: table.file.clone(), rows: rows.collect() })
+}
+
+/// The machine while a hole was made.
+///
+/// # Errors
+/// Why it cannot be known.
+pub(super) fn machine_then(study: &HoleStudy, row: &ActedRow) -> Result<Option<Machine>, String> {
+    if study.states_temperatures {
+        return Ok(None);
+    }
+    if !row.known {
+        return Err("a sensor was lost while it was made: state [temperature]".to_owned());
+    }
+    let mut problems = Diagnostics::new();
+    let machine = study.machine.at(&row.conditions, &mut problems);
+    let unknown = machine.as_ref().and_then(|m| m.unknown_growth(&row.conditions));
+    if unknown.is_some() {
+        return Err("its row has no temperature of the workpiece".to_owned());
+    }
+    let first = problems.iter().find(|d| d.severity == trueaxis_input::Severity::Error);
+    let why = first.map_or_else(|| "its temperatures are none".to_owned(), |d| d.message.clone());
+    machine.map(Some).ok_or(why)
+}
+
+/// How an offset moves the nominal tip, mm, and the command at which the errors are felt.
+pub(super) fn moved(machine: &Machine, command: &Command, row: &ActedRow) -> (Vec3, Command) {
+    let exact = ErrorValues::default();
+    let tip = |at: &Command| machine.deviation(at, &exact).nominal_tip.vector();
+    let there: Command = std::array::from_fn(|i| command[i] + row.by[i]);
+    if !row.tcp {
+        return (tip(&there) - tip(command), there);
+    }
+    // With tool-centre-point control X, Y, Z are those of the workpiece: the axes with all rotary axes at 0.
+    let (zero, axes) = (Command::default(), machine.axes().iter().enumerate());
+    let linear = axes.filter(|(_, axis)| axis.kind == AxisKind::Linear);
+    let added = linear.map(|(i, _)| {
+        let mut one = zero;
+        one[i] += 1.0;
+        row.by[i] * (tip(&one) - tip(&zero))
+    });
+    (added.sum(), there)
+}
