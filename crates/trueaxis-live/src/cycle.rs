@@ -5,6 +5,7 @@ use crate::control::{LinkFault, Seen};
 use crate::datum::{Datum, DatumOrder, DatumOutcome, Touch, touched};
 use crate::file::{Plan, PlannedDatum};
 use crate::governor::{Governor, Inputs, Order, Owned, Reason, State};
+use crate::memory::HeatOfRun;
 use crate::model::{LiveAxis, Model, Target};
 use crate::pose::Frame;
 use crate::sensor::{Judged, Sample, Watch};
@@ -31,6 +32,9 @@ pub struct CycleInput {
     /// What is asked of the zero of the part.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub datum: Option<DatumOrder>,
+    /// The heat that an earlier run has left in the scales, on the clock of this one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub memory: Option<HeatOfRun>,
 }
 
 /// What one cycle comes to.
@@ -142,6 +146,11 @@ impl Correction {
         &self.governor
     }
 
+    /// The heat in the scales, for the next run; none of a machine without heated places.
+    pub fn memory(&self) -> Option<HeatOfRun> {
+        self.model.memory().cloned().map(HeatOfRun::from)
+    }
+
     /// What is subtracted from every target: it was missing when the zero of the part was touched.
     pub fn datum(&self) -> Option<&Datum> {
         self.model.datum()
@@ -168,7 +177,10 @@ impl Correction {
         let known =
             tool.unwrap_or(Ok(())).and_then(|()| seen.map_or(Ok(()), |s| self.check_tip(s)));
         let frame = seen.map_or_else(Default::default, |seen| seen.frame);
-        let warm = known.and_then(|()| self.warm(&sensors));
+        if let Some(memory) = &input.memory {
+            self.model.remember(memory.clone().into());
+        }
+        let warm = known.and_then(|()| self.warm(now_s, &sensors));
         let asked = input.datum.as_ref();
         let datum = asked.map(|order| self.order_datum(order, &warm, (seen, programmed.as_ref())));
         let target = match &self.constant {
@@ -275,7 +287,7 @@ impl Correction {
     }
 
     /// Takes the readings of now.
-    fn warm(&mut self, sensors: &[Judged]) -> Result<(), Reason> {
+    fn warm(&mut self, now_s: f64, sensors: &[Judged]) -> Result<(), Reason> {
         let settings = self.watch.settings();
         let mut readings = Vec::with_capacity(sensors.len());
         for (settings, judged) in settings.iter().zip(sensors) {
@@ -290,7 +302,7 @@ impl Correction {
                 }
             }
         }
-        self.model.set_readings(&readings)
+        self.model.follow(now_s, &readings)
     }
 
     fn target(&mut self, frame: Frame, programmed: Option<&Command>) -> Result<Target, Reason> {

@@ -12,7 +12,7 @@ pub use losses::ExpectedLoss;
 
 use crate::cycle::AGE_PERIODS;
 use crate::file::{Plan, SensorPlan, Source, read_plan};
-use crate::model::{LiveAxis, Model, at};
+use crate::model::{LiveAxis, Model, at, remembered};
 use losses::Day;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -22,7 +22,7 @@ use trueaxis::compensate::values::travel_positions;
 use trueaxis::input::{Diagnostics, Files, Place};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{AxisKind, Command};
-use trueaxis::machine::heat::TemperatureLog;
+use trueaxis::machine::heat::{TemperatureLog, ThermalMemory};
 use trueaxis::questions::{Answer, Question, Tell, complete};
 use trueaxis_report::numbers::fixed;
 use trueaxis_report::{Report, Section, Table, document};
@@ -209,8 +209,9 @@ pub fn expect(
     let mut rows: Vec<(usize, Row)> = Vec::new();
     let mut all: Vec<Offsets> = Vec::new();
     let own = |sensor: &SensorPlan| column(sensor).to_owned();
+    let mut heat = Heat::of(plan, log, &own);
     for (i, time_s) in log.times_s().iter().enumerate().step_by(step) {
-        let row = row(plan, &model, (log, i), (&places, &own))?;
+        let row = row(plan, &model, (&mut heat, i), &places)?;
         let sampled = rows.last().map_or(&row, |(_, row)| row);
         let held = follow(plan, sampled, all.last());
         found.add(plan, *time_s, (&row, sampled, &held), &places);
@@ -246,19 +247,54 @@ fn command_at(plan: &Plan, live: usize, place: f64) -> Command {
     command
 }
 
+/// The machine over a log, row by row.
+struct Heat<'a> {
+    plan: &'a Plan,
+    log: &'a TemperatureLog,
+    column: Column<'a>,
+    /// The heat in its scales up to a row; none of a machine without heated places.
+    memory: Option<ThermalMemory>,
+    next: usize,
+}
+
+impl<'a> Heat<'a> {
+    fn of(plan: &'a Plan, log: &'a TemperatureLog, column: Column<'a>) -> Self {
+        let memory = ThermalMemory::is_needed(&plan.machine).then(ThermalMemory::default);
+        Self { plan, log, column, memory, next: 0 }
+    }
+
+    fn readings(&self, i: usize) -> Vec<(&'a str, f64)> {
+        let reading = |s: &'a SensorPlan| {
+            let celsius = self.log.celsius(&(self.column)(s)).and_then(|column| column.get(i));
+            celsius.map(|celsius| (s.settings.input.as_str(), *celsius))
+        };
+        self.plan.sensors.iter().filter_map(reading).collect()
+    }
+
+    /// The machine at a row; rows are asked in their order.
+    fn machine_at(&mut self, i: usize) -> Result<Machine, String> {
+        let (machine, readings) = (&self.plan.machine, self.readings(i));
+        let Some(mut memory) = self.memory.take() else { return at(machine, &readings) };
+        for row in self.next..=i {
+            let known = self.readings(row);
+            let read = |name: &str| known.iter().find(|(of, _)| *of == name).map(|(_, c)| *c);
+            let taken = memory.take(machine, self.log.times_s()[row], &read);
+            taken.map_err(|fault| fault.to_string())?;
+        }
+        self.next = i + 1;
+        let warm = remembered(machine, &memory, self.log.times_s()[i], &readings);
+        self.memory = Some(memory);
+        warm
+    }
+}
+
 fn row(
     plan: &Plan,
     model: &Model,
-    (log, i): (&TemperatureLog, usize),
-    (places, column): (&[Vec<f64>], Column<'_>),
+    (heat, i): (&mut Heat<'_>, usize),
+    places: &[Vec<f64>],
 ) -> Result<Row, String> {
-    let reading = |s: &SensorPlan| {
-        let celsius = log.celsius(&column(s)).and_then(|column| column.get(i));
-        celsius.map(|celsius| (s.settings.input.clone(), *celsius))
-    };
-    let readings: Vec<(String, f64)> = plan.sensors.iter().filter_map(reading).collect();
-    let readings: Vec<(&str, f64)> = readings.iter().map(|(name, c)| (name.as_str(), *c)).collect();
-    let warm = at(&plan.machine, &readings)?;
+    let warm = heat.machine_at(i)?;
     let error = |(live, places): (usize, &Vec<f64>)| {
         let axis = plan.axes[live].axis;
         let at = |place: &f64| {

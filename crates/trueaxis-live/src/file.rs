@@ -144,15 +144,6 @@ fn read_machine(root: &Section<'_>, folder: &Path) -> Option<Machine> {
     let (machine, problems) = Machine::read(root.files(), &path);
     root.take_over(problems);
     let machine = machine?;
-    let heated = machine.heat().scales.iter().find(|scale| scale.heated.is_some());
-    if let Some(scale) = heated {
-        let axis = machine.axes()[scale.axis].name;
-        let message = format!(
-            "the scale of {axis} is heated at one place: its history is not followed live yet"
-        );
-        let hint = "describe it by sensors along the scale: [scale.X] sensors = { near = \"0 mm\", far = \"3000 mm\" }";
-        item.error("live-heated-scale", message, hint);
-    }
     let mut notes = Diagnostics::new();
     let machine = not_twice(&machine, Place::whole(&path.display().to_string()), &mut notes);
     root.take_over(notes);
@@ -185,7 +176,10 @@ fn check_of(root: &Section<'_>, machine: &Machine, of: Compensation, without_par
     if of == Compensation::Machine && machine.heat().workpiece.is_some() && !without_part {
         let message = "the correction of the machine alone makes the part worse: its scales then no longer grow with the workpiece".to_owned();
         let hint = "[correction] of = \"comprehensive\" with a sensor on the workpiece; for a laser without a part: without_part = true";
-        root.error("live-machine-only", message, hint);
+        match root.get("correction") {
+            Some(item) => item.error("live-machine-only", message, hint),
+            None => root.error("live-machine-only", message, hint),
+        }
     }
 }
 

@@ -25,6 +25,7 @@ pub mod governor;
 pub mod history;
 #[allow(unsafe_code, reason = "the library of LinuxCNC is C")]
 pub mod linuxcnc;
+pub mod memory;
 pub mod metrics;
 pub mod mock;
 pub mod model;

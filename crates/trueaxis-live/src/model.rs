@@ -16,8 +16,12 @@ use trueaxis::geometry::Vec3;
 use trueaxis::input::{Diagnostics, Severity};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{Command, Travel};
-use trueaxis::machine::heat::Conditions;
+use trueaxis::machine::heat::{Conditions, ROW_S, ThermalMemory};
 use trueaxis::predict::holes::Compensation;
+
+/// A machine with heat in its scales, which takes milliseconds to make, is made again once a reading has moved by so much, or after
+/// [`ROW_S`]: 0.2 µm of a metre of steel. Unit: K.
+const STEP_K: f64 = 0.02;
 
 /// Which part of the correction goes live.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,6 +53,8 @@ pub struct Model {
     pose: Option<Pose>,
     warm: Option<Warm>,
     datum: Option<Datum>,
+    /// The heat in scales with heated places; none of a machine without such.
+    memory: Option<ThermalMemory>,
 }
 
 /// What belongs to the correction of tip and tool axis together.
@@ -66,6 +72,8 @@ struct Pose {
 #[derive(Debug, Clone)]
 struct Warm {
     readings: Vec<(String, f64)>,
+    /// When it was made; none of readings without a time.
+    at_s: Option<f64>,
     machine: Machine,
     pose: Option<PoseCorrection>,
 }
@@ -82,7 +90,8 @@ pub struct Target {
 impl Model {
     /// Of a machine whose active compensation is subtracted already.
     pub fn new(machine: Machine, of: Compensation, part: Part, axes: Vec<LiveAxis>) -> Self {
-        Self { machine, of, part, axes, pose: None, warm: None, datum: None }
+        let memory = ThermalMemory::is_needed(&machine).then(ThermalMemory::default);
+        Self { machine, of, part, axes, pose: None, warm: None, datum: None, memory }
     }
 
     /// The same for a control that takes offsets of tip and angles: all axes are corrected together.
@@ -201,19 +210,53 @@ impl Model {
         &self.axes
     }
 
-    /// Takes readings, °C; the machine is only made again where they differ.
+    /// The heat in its scales; none of a machine without heated places.
+    pub fn memory(&self) -> Option<&ThermalMemory> {
+        self.memory.as_ref()
+    }
+
+    /// Goes on with the heat of an earlier run, on the clock of this one.
+    pub fn remember(&mut self, memory: ThermalMemory) {
+        if self.memory.is_some() && memory.fits(&self.machine) {
+            self.memory = Some(memory);
+        }
+    }
+
+    /// Takes readings of now, °C; the machine is only made again where they differ, or where heat has gone on in its scales.
     ///
     /// # Errors
     /// What the machine file says against them.
+    pub fn follow(&mut self, now_s: f64, readings: &[(&str, f64)]) -> Result<(), Reason> {
+        let Some(memory) = &mut self.memory else { return self.set_readings(readings) };
+        let read = |sensor: &str| readings.iter().find(|(name, _)| *name == sensor).map(|r| r.1);
+        let of = |what: String| Reason::Model { what };
+        memory.take(&self.machine, now_s, &read).map_err(|fault| of(fault.to_string()))?;
+        let is_old = |warm: &Warm| warm.at_s.is_none_or(|at_s| now_s - at_s >= ROW_S);
+        if self.warm.as_ref().is_some_and(|warm| warm.is_near(readings) && !is_old(warm)) {
+            return Ok(());
+        }
+        let machine = remembered(&self.machine, memory, now_s, readings).map_err(of)?;
+        self.warm_up(machine, readings, Some(now_s))
+    }
+
+    /// Takes readings that have no time, °C.
+    ///
+    /// # Errors
+    /// What the machine file says against them; a heated scale then needs the `time` of its flux.
     pub fn set_readings(&mut self, readings: &[(&str, f64)]) -> Result<(), Reason> {
-        let same = |warm: &Warm| {
-            warm.readings.len() == readings.len()
-                && warm.readings.iter().zip(readings).all(|(a, b)| a.0 == b.0 && a.1 == b.1)
-        };
-        if self.warm.as_ref().is_some_and(same) {
+        if self.warm.as_ref().is_some_and(|warm| warm.is_of(readings)) {
             return Ok(());
         }
         let machine = at(&self.machine, readings).map_err(|what| Reason::Model { what })?;
+        self.warm_up(machine, readings, None)
+    }
+
+    fn warm_up(
+        &mut self,
+        machine: Machine,
+        readings: &[(&str, f64)],
+        at_s: Option<f64>,
+    ) -> Result<(), Reason> {
         let readings = readings.iter().map(|(name, celsius)| ((*name).to_owned(), *celsius));
         let before = self.warm.take().and_then(|warm| warm.pose);
         let pose = self.pose.as_ref().map(|pose| {
@@ -221,7 +264,7 @@ impl Model {
             PoseCorrection::of(&machine, pose.turns).map(|made| made.with_history_of(history))
         });
         let pose = pose.transpose().map_err(|what| Reason::Model { what })?;
-        self.warm = Some(Warm { readings: readings.collect(), machine, pose });
+        self.warm = Some(Warm { readings: readings.collect(), at_s, machine, pose });
         Ok(())
     }
 
@@ -279,19 +322,56 @@ impl Model {
     }
 }
 
+impl Warm {
+    /// Whether no reading has moved by more than [`STEP_K`].
+    fn is_near(&self, readings: &[(&str, f64)]) -> bool {
+        self.readings.len() == readings.len()
+            && self
+                .readings
+                .iter()
+                .zip(readings)
+                .all(|(a, b)| a.0 == b.0 && (a.1 - b.1).abs() <= STEP_K)
+    }
+
+    fn is_of(&self, readings: &[(&str, f64)]) -> bool {
+        self.readings.len() == readings.len()
+            && self.readings.iter().zip(readings).all(|(a, b)| a.0 == b.0 && a.1 == b.1)
+    }
+}
+
+/// A machine at readings of now, with the heat that is in its scales.
+///
+/// # Errors
+/// The first problem, in words.
+pub fn remembered(
+    machine: &Machine,
+    memory: &ThermalMemory,
+    now_s: f64,
+    readings: &[(&str, f64)],
+) -> Result<Machine, String> {
+    let mut problems = Diagnostics::new();
+    let warm = memory.machine_at(machine, &conditions(readings), now_s, &mut problems);
+    warm.ok_or_else(|| first_of(&problems))
+}
+
+fn conditions(readings: &[(&str, f64)]) -> Conditions {
+    let none = Conditions::default();
+    readings.iter().fold(none, |found, (sensor, celsius)| found.with_reading(sensor, *celsius))
+}
+
+fn first_of(problems: &Diagnostics) -> String {
+    let first = problems.iter().find(|d| d.severity == Severity::Error);
+    first.map_or_else(String::new, |d| d.message.clone())
+}
+
 /// A machine at readings of its sensors, °C.
 ///
 /// # Errors
 /// The first problem, in words.
 pub fn at(machine: &Machine, readings: &[(&str, f64)]) -> Result<Machine, String> {
-    let mut conditions = Conditions::default();
-    for (sensor, celsius) in readings {
-        conditions = conditions.with_reading(sensor, *celsius);
-    }
     let mut problems = Diagnostics::new();
-    let warm = machine.at(&conditions, &mut problems);
-    let first = problems.iter().find(|d| d.severity == Severity::Error);
-    warm.ok_or_else(|| first.map_or_else(String::new, |d| d.message.clone()))
+    let warm = machine.at(&conditions(readings), &mut problems);
+    warm.ok_or_else(|| first_of(&problems))
 }
 
 /// A position within the travels, and whether it was outside by more than what an offset moves.

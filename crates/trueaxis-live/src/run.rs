@@ -6,6 +6,7 @@ use crate::cycle::{Correction, CycleInput, CycleOutput};
 use crate::datum::{DatumOrder, DatumOutcome};
 use crate::file::Plan;
 use crate::governor::{Owned, Reason, State};
+use crate::memory::HeatOfRun;
 use crate::sensor::Sensor;
 use crate::store::{Event, Store};
 
@@ -32,6 +33,7 @@ pub struct Run<'a> {
     dry: bool,
     counts: Counts,
     datum: Option<DatumOrder>,
+    memory: Option<HeatOfRun>,
 }
 
 /// What was counted.
@@ -77,7 +79,15 @@ impl<'a> Run<'a> {
             dry: false,
             counts: Counts::default(),
             datum: None,
+            memory: None,
         }
+    }
+
+    /// The same with the heat that an earlier run has left in the scales, on the clock of this one.
+    #[must_use]
+    pub fn with_heat(mut self, memory: Option<HeatOfRun>) -> Self {
+        self.memory = memory;
+        self
     }
 
     /// Asks for something of the zero of the part, in the next cycle.
@@ -132,6 +142,7 @@ impl<'a> Run<'a> {
             confirmed: wish.confirmed,
             journal_fails: self.journal_fails,
             datum: self.datum.take(),
+            memory: self.memory.take(),
         };
         let output = self.correction.step(&input);
         self.counts.cycles += 1;

@@ -1,6 +1,6 @@
 //! A run as the command starts it: mock or real control, journal on the disk, real clock, an end by the ramp.
 
-use crate::clock::{Clock, RealClock};
+use crate::clock::{Clock, RealClock, date_s};
 use crate::control::{Control, Identity};
 use crate::cycle::{Correction, CycleInput};
 use crate::datum::DatumOrder;
@@ -9,19 +9,23 @@ use crate::focas::TcpWire;
 use crate::governor::Owned;
 use crate::governor::{Order, State};
 use crate::history::{HISTORY_S, Peaks, heading, line};
+use crate::memory::HeatOfRun;
 use crate::metrics::prometheus;
 use crate::mock::MockServer;
 use crate::part::PartOfRun;
 use crate::run::{Cycle, Run, Wish};
 use crate::start::{connect, connect_linuxcnc, mock_of, owner, sensors_of};
 use crate::status::{LiveState, folder_of, is_lagging, live_state, status_json};
-use crate::store::{DiskStore, StoreFault, kept_datum};
+use crate::store::{DiskStore, StoreFault, kept_datum, kept_heat};
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use trueaxis::input::{Diagnostics, Files, Place};
+use trueaxis::machine::heat::ThermalMemory;
 
 /// The state is written so often, s.
 const STATE_S: f64 = 1.0;
+/// The heat in the scales is kept so often, s.
+const HEAT_S: f64 = 60.0;
 /// Any port that is free, on this computer only.
 const OWN_ADDRESS: &str = "127.0.0.1:0";
 
@@ -101,7 +105,15 @@ pub fn run_session(
         );
         return Err(problems);
     }
-    let run = Run::new(&plan, owned, control, sensors_of(&plan), store);
+    let heat = match first_heat(&plan, &folder, clock.now_s()) {
+        Ok(heat) => heat,
+        Err(message) => {
+            let place = folder.join("heat.json").display().to_string();
+            problems.error("live-heat", Place::whole(&place), message, HEAT_HINT);
+            return Err(problems);
+        }
+    };
+    let run = Run::new(&plan, owned, control, sensors_of(&plan), store).with_heat(heat);
     let mut run = if session.dry { run.dry() } else { run };
     match first_datum(&plan, &folder, (session.confirmed, run.correction())) {
         Ok(order) => order.into_iter().for_each(|order| run.ask_datum(order)),
@@ -139,6 +151,29 @@ fn first_datum(
     let planned = plan.datum.as_ref().map(|planned| correction.planned_datum(planned));
     planned.transpose().map_err(|reason| reason.to_string())?;
     Ok(None)
+}
+
+/// What to do about heat that cannot be used.
+const HEAT_HINT: &str =
+    "remove it, and begin while the scales are uniform, or state `time` at their heated places";
+
+/// The heat that an earlier run has left in the scales, on the clock of this one.
+fn first_heat(plan: &Plan, folder: &Path, now_s: f64) -> Result<Option<HeatOfRun>, String> {
+    if !ThermalMemory::is_needed(&plan.machine) {
+        return Ok(None);
+    }
+    let Some(kept) = kept_heat(folder)? else { return Ok(None) };
+    if kept.machine != plan.machine.name() || !kept.heat.fits(&plan.machine) {
+        return Err("it is of other scales, or of other places at them".to_owned());
+    }
+    let Some(since_s) = date_s().checked_sub(kept.date_s) else {
+        return Err(
+            "it is of a time that is not yet: the clock of this computer was set back".to_owned()
+        );
+    };
+    #[expect(clippy::cast_precision_loss, reason = "seconds of some years")]
+    let since_s = since_s as f64;
+    Ok(Some(kept.heat.shifted(now_s - since_s)))
 }
 
 /// A control that was opened and compared with the plan.
@@ -245,6 +280,7 @@ fn drive(
     let (columns, mut peaks, mut kept_s) = (heading(plan), Peaks::default(), 0.0);
     let mut last: Option<LiveState> = None;
     let mut part = PartOfRun::default();
+    let mut heat_s = 0.0;
     run.go(
         clock,
         plan.period_s,
@@ -290,6 +326,10 @@ fn drive(
                     kept_s = state.time_s;
                     run.store().history(&columns, line(&state, &mut peaks));
                 }
+                if state.time_s - heat_s >= HEAT_S || gone.get() {
+                    heat_s = state.time_s;
+                    keep_heat(run, state.time_s);
+                }
                 asked.set(asked.get() || run.store().is_stop_asked());
                 if let Some(order) = run.store().datum_order() {
                     run.ask_datum(order);
@@ -304,6 +344,13 @@ fn drive(
         let cycle = run.cycle(clock, Wish::default());
         live_state(plan, identity, &cycle, run.correction(), run.counts())
     })
+}
+
+/// Heat that cannot be kept is missing in the next run, which then says so.
+fn keep_heat(run: &mut Run<'_>, now_s: f64) {
+    if let Some(heat) = run.correction().memory().filter(HeatOfRun::has_begun) {
+        let _ = run.store().heat(&heat, now_s);
+    }
 }
 
 pub(crate) fn is_gone(cycle: &Cycle) -> bool {

@@ -2,6 +2,7 @@
 
 mod datum;
 mod disk;
+mod heat;
 mod history;
 mod latest;
 mod memory;
@@ -9,6 +10,7 @@ mod part;
 
 pub use datum::{KeptDatum, ask_datum, kept_datum};
 pub use disk::{DiskStore, StoreFault, ask_stop, is_running, last_events, last_state, own_folder};
+pub use heat::{KeptHeat, kept_heat};
 pub use history::history_lines;
 pub use memory::{MemoryStore, Noted};
 pub use part::{PartFault, begin_part, end_part, part_now, part_path, parts};
@@ -17,6 +19,7 @@ use crate::control::Identity;
 use crate::cycle::CycleInput;
 use crate::datum::{Datum, DatumOrder};
 use crate::governor::{Order, Owned};
+use crate::memory::HeatOfRun;
 use serde::{Deserialize, Serialize};
 
 /// Whose offsets they are.
@@ -88,6 +91,14 @@ pub trait Store {
 
     /// A line of the history, under these headings; a line that the disk is too slow for is lost.
     fn history(&mut self, _heading: &str, _line: String) {}
+
+    /// The heat in the scales, for the next run.
+    ///
+    /// # Errors
+    /// What the disk says.
+    fn heat(&mut self, _heat: &HeatOfRun, _now_s: f64) -> Result<(), String> {
+        Ok(())
+    }
 
     /// The part that a person says is being made.
     fn part(&mut self) -> Option<String> {

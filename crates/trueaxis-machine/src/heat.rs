@@ -5,6 +5,7 @@
 //!     "scale_x=30.5 workpiece=31", CSV log ──> Conditions (the reading of every sensor)
 //!     Machine::at(conditions) ──> Machine whose errors contain the thermal parts
 //!     WarmingMachine::at(time) ──> the same while the conditions follow a log
+//!     ThermalMemory::take(readings) ──> the same while readings come in without end
 //! ```
 //!
 //! A machine without conditions has no thermal part: every body is at the temperature of its
@@ -13,12 +14,14 @@
 pub mod conditions;
 pub mod expansion;
 pub mod field;
+mod memory;
 mod scale;
 mod unknown;
 mod warming;
 mod workpiece;
 
 pub use conditions::{Conditions, TemperatureLog, check_range};
+pub use memory::{MemoryFault, ROW_S, ScaleHeat, ThermalMemory};
 pub use scale::{HeatedPlace, HeatedScale, Scale, StructureModel};
 pub use unknown::UnknownGrowth;
 pub use warming::{TemperatureRun, WarmingMachine};

@@ -5,7 +5,7 @@
 //!     else the run holds:       left(t + T, q) = e(t + T, q) + offset(t, q),  T up to 10 min, 1 h, the rest of the day
 //! ```
 
-use super::{Offsets, Row, column, follow, largest, row, shown};
+use super::{Heat, Offsets, Row, column, follow, largest, row, shown};
 use crate::file::{Plan, SensorPlan};
 use crate::model::Model;
 use schemars::JsonSchema;
@@ -91,16 +91,13 @@ impl Day<'_> {
     /// Another sensor takes its place.
     fn stands_in(&self, lost: &SensorPlan, other: &SensorPlan) -> Result<Vec<f64>, String> {
         let mut worst = vec![0.0f64; self.plan.axes.len()];
+        let swapped = |sensor: &SensorPlan| {
+            let is_lost = sensor.settings.name == lost.settings.name;
+            column(if is_lost { other } else { sensor }).to_owned()
+        };
+        let mut heat = Heat::of(self.plan, self.log, &swapped);
         for (at, now) in &self.rows {
-            let swapped = |sensor: &SensorPlan| {
-                if sensor.settings.name == lost.settings.name {
-                    column(other)
-                } else {
-                    column(sensor)
-                }
-                .to_owned()
-            };
-            let read = row(self.plan, self.model, (self.log, *at), (self.places, &swapped))?;
+            let read = row(self.plan, self.model, (&mut heat, *at), self.places)?;
             let held = follow(self.plan, &read, None);
             for (live, worst) in worst.iter_mut().enumerate() {
                 let left = now.errors[live].iter().zip(&held[live]).map(|(e, h)| e + h);

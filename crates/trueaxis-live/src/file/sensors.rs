@@ -2,7 +2,7 @@
 
 use super::axes::AxisPlan;
 use super::{sources, time};
-use crate::model::at;
+use crate::model::{at, remembered};
 use crate::sensor::SensorSettings;
 use crate::sensor::modbus::ModbusSource;
 use crate::sensor::mqtt::MqttSource;
@@ -11,7 +11,7 @@ use std::sync::Arc;
 use trueaxis::input::plausible::Quantity;
 use trueaxis::input::{Diagnostics, Dimension, Item, Place, Section};
 use trueaxis::machine::Machine;
-use trueaxis::machine::heat::{HeatModel, TemperatureLog};
+use trueaxis::machine::heat::{HeatModel, TemperatureLog, ThermalMemory};
 use trueaxis::predict::holes::Compensation;
 
 /// A sensor of a plan.
@@ -100,7 +100,7 @@ pub(super) fn read_sensors(
 fn needed(heat: &HeatModel, (axes, pose): (&[AxisPlan], bool), of: Compensation) -> Vec<String> {
     let live = |axis: &usize| pose || axes.iter().any(|plan| plan.axis == *axis);
     let scales = heat.scales.iter().filter(|scale| live(&scale.axis));
-    let scales = scales.flat_map(|scale| scale.sensors.iter().map(|s| s.name.clone()));
+    let scales = scales.flat_map(|scale| scale.sensors().map(str::to_owned));
     let structure = heat.structure.iter().flat_map(|s| s.coefficients.iter().map(|c| c.0.clone()));
     let workpiece = heat.workpiece.iter().filter(|_| of == Compensation::Comprehensive);
     let workpiece = workpiece.flat_map(|w| w.sensors.iter().map(|s| s.name.clone()));
@@ -202,7 +202,18 @@ fn check_model(root: &Section<'_>, machine: &Machine, sensors: &[SensorPlan]) {
         .filter(|(input, _)| machine.heat().sensors().contains(input))
         .copied()
         .collect();
-    if let Err(message) = at(machine, &known) {
+    let first = |name: &str| known.iter().find(|(of, _)| *of == name).map(|(_, celsius)| *celsius);
+    // All alike, as heat in a scale begins.
+    let uniform = |name: &str| first(name).and(known.first()).map(|(_, celsius)| *celsius);
+    let made = match ThermalMemory::is_needed(machine) {
+        false => at(machine, &known),
+        true => {
+            let mut memory = ThermalMemory::default();
+            let begun = memory.take(machine, 0.0, &uniform).map_err(|fault| fault.to_string());
+            begun.and_then(|()| remembered(machine, &memory, 0.0, &known))
+        }
+    };
+    if let Err(message) = made {
         root.error("live-missing-sensor", message, "all sensors of a body, or none of them");
     }
 }

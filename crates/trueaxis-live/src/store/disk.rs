@@ -1,10 +1,11 @@
 //! A store in a folder of its own: `lock`, `owned`, `journal.jsonl`, `state.json`, `metrics.prom`, `history.csv`,
-//! `datum.json`, `parts/`, `part`, `stop`.
+//! `datum.json`, `heat.json`, `parts/`, `part`, `stop`.
 //!
 //! `owned` has two lines of fixed length that are written in turn, each with a number and a checksum: a run that is killed
 //! while it writes one leaves the other. The journal only grows by events, never by cycles.
 
 use super::datum::{KeptDatum, asked, keep};
+use super::heat::{KEPT, KeptHeat};
 use super::history::History;
 use super::latest::Latest;
 use super::part::{PartFile, part_now};
@@ -14,6 +15,7 @@ use crate::control::Identity;
 use crate::cycle::CycleInput;
 use crate::datum::{Datum, DatumOrder};
 use crate::governor::{Order, Owned};
+use crate::memory::HeatOfRun;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::fs::{self, File, OpenOptions};
@@ -50,6 +52,7 @@ pub struct DiskStore {
     record: Option<BufWriter<File>>,
     state: Latest,
     metrics: Latest,
+    heat: Latest,
     history: Option<History>,
     part: Option<PartFile>,
     /// The plan that a zero of the part belongs to.
@@ -185,6 +188,7 @@ impl DiskStore {
             record: None,
             state: Latest::of(folder.join("state.json")),
             metrics: Latest::of(folder.join("metrics.prom")),
+            heat: Latest::of(folder.join(KEPT)),
             history: None,
             part: None,
             plan_hash: String::new(),
@@ -274,6 +278,15 @@ impl Store for DiskStore {
     fn history(&mut self, heading: &str, line: String) {
         let new = || History::of(self.folder.clone(), heading.to_owned());
         self.history.get_or_insert_with(new).add(line);
+    }
+
+    fn heat(&mut self, heat: &HeatOfRun, now_s: f64) -> Result<(), String> {
+        let kept = KeptHeat {
+            machine: self.owner.machine.clone(),
+            date_s: date_s(),
+            heat: heat.clone().shifted(-now_s),
+        };
+        self.heat.put(serde_json::to_string(&kept).map_err(|error| error.to_string())?)
     }
 
     fn part(&mut self) -> Option<String> {

@@ -149,7 +149,7 @@ fn heat_content(place: f64, depth: f64, from: f64, to: f64) -> f64 {
 }
 
 /// What a strength of 1 K/mm since some time makes of the temperature at a distance, mm.
-fn strength_to_rise(distance_mm: f64, diffusivity_mm2_per_s: f64, age_s: f64) -> f64 {
+pub(super) fn strength_to_rise(distance_mm: f64, diffusivity_mm2_per_s: f64, age_s: f64) -> f64 {
     let depth_mm = (4.0 * diffusivity_mm2_per_s * age_s).sqrt();
     // At the place itself, the commonest case, the series is known.
     let shape = if distance_mm == 0.0 { IERFC_0 } else { ierfc(distance_mm.abs() / depth_mm) };

@@ -35,7 +35,7 @@ pub struct HeatedScale {
 }
 
 impl HeatedScale {
-    fn places_mm(&self) -> Vec<f64> {
+    pub(super) fn places_mm(&self) -> Vec<f64> {
         self.places.iter().map(|p| p.place_mm).collect()
     }
 
@@ -84,7 +84,7 @@ pub struct Scale {
 
 impl Scale {
     /// The names of its sensors, each once.
-    pub(super) fn sensors(&self) -> impl Iterator<Item = &str> + Clone {
+    pub fn sensors(&self) -> impl Iterator<Item = &str> + Clone {
         let near = self.heated.iter().flat_map(|h| h.places.iter().map(|p| p.near.as_str()));
         let far = self.heated.iter().map(|h| h.far.as_str());
         self.sensors.iter().map(|s| s.name.as_str()).chain(near).chain(far)
