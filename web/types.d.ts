@@ -7630,6 +7630,10 @@ export interface LiveExpect {
    */
   losses: ExpectedLoss[];
   /**
+   * Tip and tool axis together, where the control takes whole poses; there are no `axes` then. Null with a control of another kind.
+   */
+  poses: ExpectedPoses | null;
+  /**
    * What no offset of an axis changes: the largest deviation of the tool axis over the day; null without rotary axes and
    * angular errors.
    */
@@ -7746,7 +7750,7 @@ export interface ExpectedTime {
 }
 /**
  * The loss of one sensor. Errors are the largest over the day and the travel, whenever it is lost; in the order of the axes, in
- * their units.
+ * their units; of a control that takes whole poses tip (µm) and tool axis (µrad).
  */
 export interface ExpectedLoss {
   /**
@@ -7769,6 +7773,66 @@ export interface ExpectedLoss {
    * On the rest of the day. Unit: that of `unit`.
    */
   rest_of_day: number[];
+}
+/**
+ * Tip and tool axis over the day, in poses over the whole travel, standing still.
+ */
+export interface ExpectedPoses {
+  /**
+   * Poses: the corners of the travel, and others that fill it evenly.
+   */
+  poses: number;
+  /**
+   * Rows of the log.
+   */
+  rows: number;
+  /**
+   * Tip: the largest distance from where it should be, without the correction and with it.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  tip_um: [number, number];
+  /**
+   * Of it: the temperatures have changed since the last sample.
+   */
+  tip_by_age_um: number;
+  /**
+   * Expanded uncertainty (k = 2) of the tip at the pose that is worst without the correction, by the machine file; null where it states none.
+   */
+  tip_expanded_uncertainty_um: number | null;
+  /**
+   * Tool axis: the largest angle, without the correction and with it; null without rotary axes.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  tool_axis_urad: [number, number] | null;
+  /**
+   * Each live axis: what the plan must allow.
+   */
+  axes: ExpectedOffset[];
+}
+/**
+ * The offset of one live axis.
+ */
+export interface ExpectedOffset {
+  /**
+   * Its letter.
+   */
+  axis: string;
+  /**
+   * um or urad.
+   */
+  unit: string;
+  /**
+   * The largest offset of the axis that is needed. Unit: that of `unit`.
+   */
+  needed: number;
+  /**
+   * The limit of the plan. Unit: that of `unit`.
+   */
+  limit: number;
 }
 /**
  * The records of parts.
@@ -7874,11 +7938,11 @@ export interface LivePartEntry {
  */
 export interface LivePartRow {
   /**
-   * The number of the program; 0 where the control does not say.
+   * The number of the program; 0 where the control does not say. Unit: 1.
    */
   program: number;
   /**
-   * The sequence number or line.
+   * The sequence number or line. Unit: 1.
    */
   block: number;
   /**

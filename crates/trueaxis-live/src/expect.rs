@@ -7,8 +7,11 @@
 //! ```
 
 mod losses;
+mod poses;
+mod report;
 
 pub use losses::ExpectedLoss;
+pub use poses::{ExpectedOffset, ExpectedPoses};
 
 use crate::cycle::AGE_PERIODS;
 use crate::file::{Plan, SensorPlan, Source, read_plan};
@@ -16,16 +19,13 @@ use crate::model::{LiveAxis, Model, at, remembered};
 use losses::Day;
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
 use std::path::PathBuf;
 use trueaxis::compensate::values::travel_positions;
 use trueaxis::input::{Diagnostics, Files, Place};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{AxisKind, Command};
 use trueaxis::machine::heat::{TemperatureLog, ThermalMemory};
-use trueaxis::questions::{Answer, Question, Tell, complete};
-use trueaxis_report::numbers::fixed;
-use trueaxis_report::{Report, Section, Table, document};
+use trueaxis::questions::{Question, Tell};
 
 /// Places on the travel of an axis.
 const PLACES: f64 = 20.0;
@@ -59,6 +59,8 @@ pub struct LiveExpectDocument {
     pub times: Vec<ExpectedTime>,
     /// What the loss of each sensor costs on that day.
     pub losses: Vec<ExpectedLoss>,
+    /// Tip and tool axis together, where the control takes whole poses; there are no `axes` then. Null with a control of another kind.
+    pub poses: Option<ExpectedPoses>,
     /// What no offset of an axis changes: the largest deviation of the tool axis over the day; null without rotary axes and
     /// angular errors.
     pub tool_axis_urad: Option<f64>,
@@ -121,17 +123,6 @@ impl Question for ExpectLive {
         let text = files.text(&self.log, "a log of temperatures (CSV)", problems)?;
         let log = TemperatureLog::parse(&self.log.display().to_string(), &text, problems)?;
         let plan = plan?;
-        if plan.control.takes_pose() {
-            let place = Place::whole(&self.plan.display().to_string());
-            let message =
-                "this control takes whole poses: there is no forecast of them yet".to_owned();
-            problems.error(
-                "live-no-forecast",
-                place,
-                message,
-                "trueaxis predict and compensate program compute the residual error of a pose",
-            );
-        }
         let known = |name: &String| plan.sensors.iter().any(|s| s.settings.name == *name);
         if let Some(name) = self.without.as_ref().filter(|name| !known(name)) {
             let names: Vec<&str> = plan.sensors.iter().map(|s| s.settings.name.as_str()).collect();
@@ -201,6 +192,11 @@ pub fn expect(
     log: &TemperatureLog,
     without: Option<&str>,
 ) -> Result<LiveExpectDocument, String> {
+    if plan.control.takes_pose() {
+        let (poses, losses) = poses::expect(plan, log, without)?;
+        let document = Found::default().document(plan, log, losses);
+        return Ok(LiveExpectDocument { poses: Some(poses), axes: Vec::new(), ..document });
+    }
     let model = model_of(plan);
     let places: Vec<Vec<f64>> =
         plan.axes.iter().map(|axis| places(&plan.machine, axis.axis)).collect();
@@ -323,6 +319,7 @@ fn follow(plan: &Plan, sampled: &Row, before: Option<&Offsets>) -> Offsets {
 }
 
 /// What was found so far, mm and rad.
+#[derive(Default)]
 struct Found {
     axes: Vec<Worst>,
     times: Vec<ExpectedTime>,
@@ -465,103 +462,9 @@ impl Found {
             axes: self.axes.iter().enumerate().map(axis).collect(),
             times: self.times,
             losses,
+            poses: None,
             tool_axis_urad: (self.turned_rad > 0.0).then_some(self.turned_rad * 1e6),
             other_tip_um: self.other_mm * 1e3,
         }
-    }
-}
-
-impl Answer for LiveExpectAnswer {
-    fn document(&self, problems: &Diagnostics) -> Value {
-        complete(document(&self.0), problems)
-    }
-
-    fn report(&self) -> Report<'_> {
-        let shown = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |v| fixed(v, 1));
-        let in_unit = |axis: &ExpectedAxis| {
-            format!("{}, {}", axis.axis, if axis.unit == "um" { "µm" } else { "µrad" })
-        };
-        let axes = self.0.axes.iter().map(|axis| {
-            [
-                in_unit(axis),
-                fixed(axis.before, 1),
-                fixed(axis.after, 1),
-                fixed(axis.by_age, 1),
-                fixed(axis.by_increment, 1),
-                shown(axis.moving),
-                shown(axis.expanded_uncertainty),
-            ]
-        });
-        let headings = [
-            "axis",
-            "before",
-            "after",
-            "of it: age of the sample",
-            "of it: increment",
-            "more while it moves",
-            "U (k = 2)",
-        ];
-        let limits = self.0.axes.iter().map(|axis| {
-            let fits = axis.needed <= axis.limit
-                && axis.needed_per_s.is_none_or(|needed| needed <= axis.slew_per_s);
-            [
-                in_unit(axis),
-                fixed(axis.needed, 1),
-                fixed(axis.limit, 1),
-                shown(axis.needed_per_s),
-                fixed(axis.slew_per_s, 1),
-                if fits { "" } else { "too small" }.to_owned(),
-            ]
-        });
-        let needs = [
-            "axis",
-            "offset needed",
-            "limit",
-            "needed per second, at full speed",
-            "slew per second",
-            "",
-        ];
-        let others = format!(
-            "not corrected by offsets of the axes: {} µm of the tip (squareness, straightness, angles)",
-            fixed(self.0.other_tip_um, 1)
-        );
-        let turned = self
-            .0
-            .tool_axis_urad
-            .map(|urad| format!("nor: {} µrad of the tool axis", fixed(urad, 1)));
-        let report =
-            Report::new(&self.0.name).line(format!("on the day of {}", self.0.log)).line(others);
-        let report = turned.into_iter().fold(report, |report, line| report.line(line));
-        report
-            .section(
-                Section::new("Largest errors over the day").table(Table::new(headings).rows(axes)),
-            )
-            .section(Section::new("What the plan must allow").table(Table::new(needs).rows(limits)))
-            .section(self.losses())
-    }
-}
-
-impl LiveExpectAnswer {
-    /// Largest errors of all axes, wherever on the day a sensor is lost.
-    fn losses(&self) -> Section<'_> {
-        let numbers = |values: &[f64]| {
-            let pairs = self.0.axes.iter().zip(values);
-            pairs
-                .map(|(axis, v)| format!("{} {}", axis.axis, fixed(*v, 1)))
-                .collect::<Vec<_>>()
-                .join(", ")
-        };
-        let rows = self.0.losses.iter().map(|loss| {
-            let then = loss
-                .instead
-                .as_ref()
-                .map_or_else(|| "hold".to_owned(), |name| format!("{name} stands in"));
-            let [ten, hour, rest] = [&loss.after_10_min, &loss.after_1_h, &loss.rest_of_day];
-            [loss.sensor.clone(), then, numbers(ten), numbers(hour), numbers(rest)]
-        });
-        let headings = ["sensor", "then", "after 10 min", "after 1 h", "rest of the day"];
-        let table =
-            Table::new(headings).rows(rows).note("µm and µrad; the largest errors of each axis.");
-        Section::new("What the loss of a sensor costs").table(table)
     }
 }

@@ -12,11 +12,11 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis::machine::heat::TemperatureLog;
 
-const TEN_MINUTES_S: f64 = 600.0;
-const HOUR_S: f64 = 3600.0;
+pub(super) const TEN_MINUTES_S: f64 = 600.0;
+pub(super) const HOUR_S: f64 = 3600.0;
 
 /// The loss of one sensor. Errors are the largest over the day and the travel, whenever it is lost; in the order of the axes, in
-/// their units.
+/// their units; of a control that takes whole poses tip (µm) and tool axis (µrad).
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct ExpectedLoss {
     /// The sensor of the plan.
