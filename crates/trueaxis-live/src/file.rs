@@ -3,12 +3,14 @@
 mod axes;
 mod control;
 mod datum;
+mod opcua;
 mod sensors;
 mod sources;
 
 pub use axes::{AxisPlan, Commissioned, RIGHT, WRONG};
 pub use control::{Bound, ControlPlan, FanucPlan, LinuxCncPlan};
 pub use datum::PlannedDatum;
+pub use opcua::{OpcUaPlan, Security};
 pub use sensors::{SensorPlan, Source};
 
 use crate::control::Mode;
@@ -100,7 +102,7 @@ fn read(root: &Section<'_>, path: &Path, commissions: bool) -> Option<Plan> {
         correction.unwrap_or((Compensation::Comprehensive, Part::Whole, false));
     check_of(root, &machine, of, without_part);
     let axes = axes::read_axes(root, &machine);
-    let control = control::read_control(root, &machine, (&axes, commissions));
+    let control = control::read_control(root, folder, &machine, (&axes, commissions));
     check_pose(root, &machine, of, control.as_ref());
     let pose = control.as_ref().is_some_and(ControlPlan::takes_pose);
     let sensors = sensors::read_sensors(root, folder, &machine, (&axes, of, pose));

@@ -29,6 +29,7 @@ pub mod memory;
 pub mod metrics;
 pub mod mock;
 pub mod model;
+pub mod opcua;
 pub mod part;
 pub mod parts;
 pub mod pose;

@@ -14,7 +14,7 @@ use crate::metrics::prometheus;
 use crate::mock::MockServer;
 use crate::part::PartOfRun;
 use crate::run::{Cycle, Run, Wish};
-use crate::start::{connect, connect_linuxcnc, mock_of, owner, sensors_of};
+use crate::start::{connect, connect_linuxcnc, connect_opcua, mock_of, owner, sensors_of};
 use crate::status::{LiveState, folder_of, is_lagging, live_state, status_json};
 use crate::store::{DiskStore, StoreFault, kept_datum, kept_heat};
 use std::io::{BufRead, BufReader};
@@ -196,6 +196,10 @@ pub(crate) fn open(
             let wire = TcpWire::new(&address, fanuc.timeout_s);
             let (control, identity) = connect((plan, fanuc), wire, clock.now_s())?;
             Ok(Opened { control: Box::new(control), identity, held: None })
+        }
+        ControlPlan::OpcUa(opcua) => {
+            let (control, identity) = connect_opcua(plan, opcua, clock.now_s())?;
+            Ok(Opened { control, identity, held: None })
         }
         ControlPlan::LinuxCnc(_) => {
             let (control, identity) = connect_linuxcnc(plan)?;

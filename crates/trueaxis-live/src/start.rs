@@ -1,10 +1,11 @@
 //! From a plan to a run: the control is opened and compared with the plan before anything is written.
 
 use crate::control::{Control, Identity, LinkFault};
-use crate::file::{FanucPlan, Plan, Source};
+use crate::file::{FanucPlan, OpcUaPlan, Plan, Source};
 use crate::focas::{Fanuc, FanucSettings, Wire};
 use crate::linuxcnc::{HalPins, Joint, LinuxCnc, LinuxCncSettings, LiveJoint};
 use crate::mock::{FanucMock, MockPlan};
+use crate::opcua::{Nodes, OpcUa, OpcUaSettings};
 use crate::sensor::{LogSensor, Sample, Sensor, Sent};
 use crate::store::Owner;
 use trueaxis::input::{Diagnostics, Place};
@@ -112,6 +113,93 @@ pub fn connect_linuxcnc(plan: &Plan) -> Result<(LinuxCnc<HalPins>, Identity), Di
     let mut control = LinuxCnc::new(pins, settings);
     let identity = control.identity(0.0).map_err(|fault| refused(fault.to_string(), hint))?;
     Ok((control, identity))
+}
+
+/// Which nodes of a server belong to a plan.
+pub fn opcua_settings(plan: &Plan, opcua: &OpcUaPlan) -> OpcUaSettings {
+    let kind = |axis: usize| plan.machine.axes()[axis].kind;
+    let increment = |axis: &crate::file::AxisPlan| match kind(axis.axis) {
+        AxisKind::Rotary => axis.increment.to_degrees(),
+        AxisKind::Linear => axis.increment,
+    };
+    OpcUaSettings {
+        nodes: opcua.nodes.clone(),
+        axes: plan.machine.axes().iter().map(|axis| axis.name.to_string()).collect(),
+        rotary: plan.machine.axes().iter().map(|axis| axis.kind == AxisKind::Rotary).collect(),
+        live: plan.axes.iter().map(|axis| axis.axis).collect(),
+        increments: plan.axes.iter().map(increment).collect(),
+        positions_have_offset: opcua.positions_have_offset,
+        modes: opcua.modes.clone(),
+    }
+}
+
+/// Opens a server of OPC UA and compares it; nothing is written.
+///
+/// # Errors
+/// What differs, each with its cure; without the feature `opcua` that it is missing.
+pub fn connect_opcua(
+    plan: &Plan,
+    opcua: &OpcUaPlan,
+    now_s: f64,
+) -> Result<(Box<dyn Control>, Identity), Diagnostics> {
+    #[cfg(feature = "opcua")]
+    {
+        let client = crate::opcua::Client::of(opcua).map_err(|error| {
+            let message = format!("the connection cannot be opened: {error}");
+            no_link(plan, message, "let the program have one more thread")
+        })?;
+        let mut control = OpcUa::new(client, opcua_settings(plan, opcua));
+        let identity = compared(plan, opcua, &mut control, now_s)?;
+        Ok((Box::new(control), identity))
+    }
+    #[cfg(not(feature = "opcua"))]
+    {
+        let _ = (opcua, now_s);
+        let message = "this program was built without OPC UA".to_owned();
+        Err(no_link(plan, message, "build it with it: cargo build --release --features opcua"))
+    }
+}
+
+fn no_link(plan: &Plan, message: String, hint: &str) -> Diagnostics {
+    let mut problems = Diagnostics::new();
+    let place = Place::whole(&plan.path.display().to_string());
+    problems.error("live-no-link", place, message, hint);
+    problems
+}
+
+/// A control of OPC UA is the one of the plan, and every node of it can be read.
+///
+/// # Errors
+/// What differs, with its cure.
+pub fn compared<N: Nodes>(
+    plan: &Plan,
+    opcua: &OpcUaPlan,
+    control: &mut OpcUa<N>,
+    now_s: f64,
+) -> Result<Identity, Diagnostics> {
+    let hint =
+        "check the endpoint, security and user of the plan, and the nodes as the server shows them";
+    let asked =
+        |fault: LinkFault| no_link(plan, format!("the control cannot be asked: {fault}"), hint);
+    let found = control.identity(now_s).map_err(asked)?;
+    if let Some(bound) = opcua.bound.as_ref().filter(|bound| !bound.is(&found)) {
+        let Identity { kind, series, version, .. } = &found;
+        let message = format!(
+            "the control at that address is `{kind}` `{series}` `{version}`, the plan is of `{}` `{}` `{}`",
+            bound.kind, bound.series, bound.version
+        );
+        let mut problems = Diagnostics::new();
+        let place = Place::whole(&plan.path.display().to_string());
+        problems.error(
+            "live-other-control",
+            place,
+            message,
+            "correct the address; after an update of the control, its identity",
+        );
+        return Err(problems);
+    }
+    control.read(now_s).map_err(asked)?;
+    Ok(found)
 }
 
 fn cure(fault: &LinkFault) -> &'static str {

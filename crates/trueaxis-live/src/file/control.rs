@@ -1,11 +1,13 @@
 //! `[control]` of a plan: which control, how it is reached, and what the builder of the machine has agreed with its ladder.
 
 use super::axes::AxisPlan;
+use super::opcua::{OpcUaPlan, read_opcua};
 use super::{time, word};
 use crate::control::Identity;
 use crate::focas::{Lever, PmcAddress, PmcAreas, PmcBit};
 use crate::mock::{LadderSettings, MockPath, Stop};
 use crate::pose::World;
+use std::path::Path;
 use trueaxis::input::{Dimension, Item, Section};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::AxisKind;
@@ -17,6 +19,8 @@ pub enum ControlPlan {
     Fanuc(Box<FanucPlan>),
     /// LinuxCNC on this computer, by its HAL.
     LinuxCnc(LinuxCncPlan),
+    /// A server of OPC UA, such as that of SINUMERIK.
+    OpcUa(Box<OpcUaPlan>),
 }
 
 impl ControlPlan {
@@ -25,6 +29,7 @@ impl ControlPlan {
         match self {
             Self::Fanuc(fanuc) => fanuc.lever == Lever::Pmc,
             Self::LinuxCnc(_) => true,
+            Self::OpcUa(opcua) => opcua.nodes.heartbeat.is_some() && opcua.nodes.tripped.is_some(),
         }
     }
 
@@ -38,6 +43,7 @@ impl ControlPlan {
         match self {
             Self::Fanuc(fanuc) => fanuc.timeout_s,
             Self::LinuxCnc(linuxcnc) => linuxcnc.timeout_s,
+            Self::OpcUa(opcua) => opcua.timeout_s,
         }
     }
 
@@ -45,7 +51,7 @@ impl ControlPlan {
     pub fn fanuc(&self) -> Option<&FanucPlan> {
         match self {
             Self::Fanuc(fanuc) => Some(fanuc),
-            Self::LinuxCnc(_) => None,
+            Self::LinuxCnc(_) | Self::OpcUa(_) => None,
         }
     }
 }
@@ -98,15 +104,18 @@ impl Bound {
 
 pub(super) fn read_control(
     root: &Section<'_>,
+    folder: &Path,
     machine: &Machine,
     (axes, commissions): (&[AxisPlan], bool),
 ) -> Option<ControlPlan> {
     let mock = root.section("mock", |s| read_mock(s, machine, axes));
-    let hint = "[control] kind = \"fanuc\", address = \"192.168.1.10:8193\", lever, referenced, inhibit; or kind = \"linuxcnc\"";
+    let hint = "[control] kind = \"fanuc\", address = \"192.168.1.10:8193\", lever, referenced, inhibit; or kind = \"linuxcnc\"; or kind = \"opc-ua\"";
     let item = root.require("control", hint)?;
     let read = |section: &Section<'_>| match read_kind(section)? {
         Kind::Fanuc => read_fanuc(section).map(|fanuc| ControlPlan::Fanuc(Box::new(fanuc))),
         Kind::LinuxCnc => read_linuxcnc(section, machine, (axes, commissions)),
+        Kind::OpcUa => read_opcua(section, folder, (machine, axes), commissions)
+            .map(|opcua| ControlPlan::OpcUa(Box::new(opcua))),
     };
     let mut control = match item.section("control", read).flatten()? {
         ControlPlan::Fanuc(fanuc) => fanuc,
@@ -139,11 +148,12 @@ pub(super) fn read_control(
 enum Kind {
     Fanuc,
     LinuxCnc,
+    OpcUa,
 }
 
 fn read_kind(section: &Section<'_>) -> Option<Kind> {
-    let item = section.require("kind", "kind = \"fanuc\", or \"linuxcnc\"")?;
-    word(&item, &[("fanuc", Kind::Fanuc), ("linuxcnc", Kind::LinuxCnc)])
+    let item = section.require("kind", "kind = \"fanuc\", \"linuxcnc\", or \"opc-ua\"")?;
+    word(&item, &[("fanuc", Kind::Fanuc), ("linuxcnc", Kind::LinuxCnc), ("opc-ua", Kind::OpcUa)])
 }
 
 fn read_linuxcnc(
@@ -167,7 +177,7 @@ fn read_linuxcnc(
 }
 
 /// Nothing is written to a machine before sign and scale of each axis were seen.
-fn check_commissioned(axes: &[AxisPlan], error: impl Fn(&'static str, String, &str)) {
+pub(super) fn check_commissioned(axes: &[AxisPlan], error: impl Fn(&'static str, String, &str)) {
     for axis in axes.iter().filter(|axis| axis.commissioned.is_none()) {
         let message = format!("axis {}: sign and scale of its offset were not measured", axis.name);
         let hint = "trueaxis live commission PLAN --axis X --by \"10 um\" writes it and takes the reading (docs/ladder-watchdog.md); a LinuxCNC without a machine: simulated = true";
@@ -202,13 +212,7 @@ fn read_fanuc(section: &Section<'_>) -> Option<FanucPlan> {
         "inhibit = \"R1044.0\": set by the ladder while probing, threading, setting tools",
     );
     let inhibit = inhibit.and_then(|item| read_bit(&item));
-    let bound = section.section("identity", |s| {
-        let part = |key| {
-            s.require(key, "as the control says it").and_then(|i| i.text()).map(str::to_owned)
-        };
-        let (kind, series, version) = (part("kind"), part("series"), part("version"));
-        Some(Bound { kind: kind?, series: series?, version: version? })
-    });
+    let bound = section.section("identity", read_identity);
     let pmc = section.section("pmc", read_pmc);
     if lever == Some(Lever::Pmc) && pmc.is_none() {
         let hint = "pmc = { command, acting, heartbeat, ask_hold, tripped }: addresses of the builder of the machine";
@@ -224,6 +228,14 @@ fn read_fanuc(section: &Section<'_>) -> Option<FanucPlan> {
         pmc: pmc.flatten(),
         mock: None,
     })
+}
+
+pub(super) fn read_identity(section: &Section<'_>) -> Option<Bound> {
+    let part = |key| {
+        section.require(key, "as the control says it").and_then(|i| i.text()).map(str::to_owned)
+    };
+    let (kind, series, version) = (part("kind"), part("series"), part("version"));
+    Some(Bound { kind: kind?, series: series?, version: version? })
 }
 
 /// None inside is a mock.

@@ -1,0 +1,336 @@
+//! A control with an OPC UA server, on nodes in memory; `scripts/live-opcua` runs the same against a server of others.
+
+mod rig;
+
+use rig::root;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+use trueaxis::files::disk;
+use trueaxis_live::clock::{Clock, VirtualClock};
+use trueaxis_live::control::LinkFault;
+use trueaxis_live::file::{ControlPlan, Plan, read_plan};
+use trueaxis_live::governor::State;
+use trueaxis_live::opcua::{Nodes, OpcUa, Said, Value};
+use trueaxis_live::run::{Cycle, Run, Wish};
+use trueaxis_live::start::{compared, opcua_settings, sensors_of};
+use trueaxis_live::store::MemoryStore;
+
+const CONTROL: &str = r#"[control]
+kind = "opc-ua"
+endpoint = "opc.tcp://192.168.1.30:4840"
+security = "sign-and-encrypt"
+timeout = "500 ms"
+positions_have_offset = true
+identity = { kind = "Maker", series = "Server", version = "1.0" }
+[control.nodes]
+position = { X = "ns=2;s=X", Y = "ns=2;s=Y", Z = "ns=2;s=Z" }
+offset = { X = "ns=2;s=oX", Y = "ns=2;s=oY" }
+referenced = "ns=2;s=referenced"
+inhibit = "ns=2;s=inhibit"
+running = "ns=2;s=running"
+mode = "ns=2;s=mode"
+emergency = "ns=2;s=emergency"
+heartbeat = "ns=2;s=beat"
+tripped = "ns=2;s=tripped"
+ask_hold = "ns=2;s=hold"
+"#;
+
+/// The example on OPC UA, with other lines.
+fn plan_with(changes: &[(&str, &str)]) -> Result<Plan, Vec<String>> {
+    let path = root().join("examples/08_live/gantry-mock.toml");
+    let text = std::fs::read_to_string(&path).expect("the example");
+    let (head, rest) = text.split_once("[control]").expect("a control");
+    let (_, rest) = rest.split_once("[axis.X]").expect("axes");
+    let (rest, _) = rest.split_once("# Eleven targets").expect("a mock");
+    let proof =
+        "commissioned = { wrote = \"10 um\", measured = \"9.9 um\", evidence = \"a test\" }\n";
+    let rest = rest.replacen("[axis.Y]\n", &format!("[axis.Y]\n{proof}"), 1);
+    let log =
+        "source = { log = \"../03_predict/torque-arm-hall.csv\", start = \"200 min\", speed = 10 }";
+    let rest = rest.replace(log, "source = { constant = \"30.5 degC\" }");
+    let mut text = format!("{head}{CONTROL}[axis.X]\n{proof}{rest}");
+    for (old, new) in changes {
+        assert!(text.contains(old), "no `{old}` in\n{text}");
+        text = text.replace(old, new);
+    }
+    let own = path.with_file_name("changed.toml");
+    let (plan, problems) = read_plan(&disk().with_texts([(own.clone(), text)]), &own);
+    let shown = || problems.iter().map(|d| format!("{}: {}", d.code, d.message)).collect();
+    plan.ok_or_else(shown)
+}
+
+/// Nodes that a program moves and a PLC watches.
+#[derive(Default)]
+struct Memory {
+    nodes: BTreeMap<String, Value>,
+    refused: Option<String>,
+    is_down: bool,
+    written: Vec<Vec<(String, Value)>>,
+    /// The offset is added to what is shown.
+    shows_offset: bool,
+}
+
+#[derive(Clone, Default)]
+struct Server(Rc<RefCell<Memory>>);
+
+impl Server {
+    fn of(shows_offset: bool) -> Self {
+        let server = Self::default();
+        {
+            let mut memory = server.0.borrow_mut();
+            memory.shows_offset = shows_offset;
+            for name in ["X", "Y", "Z", "oX", "oY", "beat"] {
+                memory.nodes.insert(name.to_owned(), Value::Number(0.0));
+            }
+            memory.nodes.insert("mode".to_owned(), Value::Number(2.0));
+            for (name, flag) in [
+                ("referenced", true),
+                ("running", true),
+                ("inhibit", false),
+                ("emergency", false),
+                ("tripped", false),
+                ("hold", false),
+            ] {
+                memory.nodes.insert(name.to_owned(), Value::Flag(flag));
+            }
+        }
+        server
+    }
+
+    fn set(&self, name: &str, value: Value) {
+        self.0.borrow_mut().nodes.insert(name.to_owned(), value);
+    }
+
+    fn number(&self, name: &str) -> f64 {
+        match self.0.borrow().nodes[name] {
+            Value::Number(number) => number,
+            Value::Flag(flag) => f64::from(u8::from(flag)),
+        }
+    }
+}
+
+impl Nodes for Server {
+    fn read(&mut self, nodes: &[&str], _: f64) -> Result<Vec<Said<Value>>, LinkFault> {
+        let memory = self.0.borrow();
+        if memory.is_down {
+            return Err(LinkFault::Down { reason: "the cable is pulled".to_owned() });
+        }
+        let one = |node: &&str| {
+            let name = node.strip_prefix("ns=2;s=").unwrap_or(node);
+            if memory.refused.as_deref() == Some(name) {
+                return Err("BadUserAccessDenied".to_owned());
+            }
+            let value = memory.nodes.get(name).cloned().ok_or("BadNodeIdUnknown".to_owned())?;
+            let offset = memory.nodes.get(&format!("o{name}"));
+            Ok(match (value, offset) {
+                (Value::Number(at), Some(Value::Number(offset))) if memory.shows_offset => {
+                    Value::Number(at + offset)
+                }
+                (value, _) => value,
+            })
+        };
+        Ok(nodes.iter().map(one).collect())
+    }
+
+    fn write(&mut self, nodes: &[(&str, Value)], _: f64) -> Result<Vec<Said<()>>, LinkFault> {
+        let mut memory = self.0.borrow_mut();
+        let mut said = Vec::new();
+        let mut all = Vec::new();
+        for (node, value) in nodes {
+            let name = node.strip_prefix("ns=2;s=").unwrap_or(node).to_owned();
+            if memory.refused.as_ref() == Some(&name) {
+                said.push(Err("BadUserAccessDenied".to_owned()));
+                continue;
+            }
+            memory.nodes.insert(name.clone(), value.clone());
+            all.push((name, value.clone()));
+            said.push(Ok(()));
+        }
+        memory.written.push(all);
+        Ok(said)
+    }
+
+    fn server(&mut self, _: f64) -> Result<[String; 3], LinkFault> {
+        Ok(["Maker", "Server", "1.0"].map(str::to_owned))
+    }
+}
+
+struct Bench {
+    plan: Plan,
+    clock: VirtualClock,
+    run: Run<'static>,
+    last: Option<Cycle>,
+}
+
+impl Bench {
+    fn new(plan: Plan, server: &Server) -> Self {
+        let ControlPlan::OpcUa(opcua) = &plan.control else { panic!("OPC UA") };
+        let mut control = OpcUa::new(server.clone(), opcua_settings(&plan, opcua));
+        compared(&plan, opcua, &mut control, 0.0).unwrap_or_else(|e| panic!("{:?}", e.sorted()));
+        let store = MemoryStore::default();
+        let run = Run::new(&plan, None, Box::new(control), sensors_of(&plan), store);
+        let clock = VirtualClock::default();
+        Self { plan, clock, run, last: None }
+    }
+
+    fn pass(&mut self, time_s: f64) {
+        let end_s = self.clock.now_s() + time_s;
+        while self.clock.now_s() < end_s {
+            let wish = Wish { run: true, confirmed: false };
+            self.last = Some(self.run.cycle(&self.clock, wish));
+            self.clock.wait_until(self.clock.now_s() + self.plan.period_s);
+        }
+    }
+
+    fn shown(&self) -> String {
+        let order = &self.last.as_ref().expect("a cycle").output.order;
+        format!("{}: {}", order.state, order.reason)
+    }
+}
+
+/// At X = 3500 mm with all at 30.5 °C: by hand 431 − 13.2 · 3.5 · 10.5 = −54.1, so +54 µm; in mm in the node. Whether the server shows
+/// the offset in its positions does not matter where the plan says which.
+#[test]
+fn law_the_offset_of_the_paper_in_mm() {
+    let mut found = Vec::new();
+    for shows_offset in [true, false] {
+        let server = Server::of(shows_offset);
+        server.set("X", Value::Number(3500.0));
+        server.set("Y", Value::Number(2300.0));
+        let change = [(
+            "positions_have_offset = true",
+            if shows_offset {
+                "positions_have_offset = true"
+            } else {
+                "positions_have_offset = false"
+            },
+        )];
+        let mut bench = Bench::new(plan_with(&change).unwrap_or_else(|e| panic!("{e:?}")), &server);
+        bench.pass(10.0);
+        assert!(bench.shown().starts_with("Run"), "{}", bench.shown());
+        assert!((server.number("oX") - 0.054).abs() < 0.0016, "{}", server.number("oX"));
+        let programmed = bench.last.as_ref().and_then(|c| c.output.programmed).expect("a position");
+        assert!((programmed[0] - 3500.0).abs() < 1e-9 && (programmed[1] - 2300.0).abs() < 1e-9);
+        found.push((server.number("oX"), server.number("oY")));
+        // Each write changes the heartbeat.
+        let memory = server.0.borrow();
+        let beats: Vec<_> = memory.written.iter().map(|all| all[0].1.clone()).collect();
+        assert!(beats.windows(2).all(|w| w[0] != w[1]) && memory.written.len() > 100);
+    }
+    assert_eq!(found[0], found[1]);
+}
+
+#[test]
+fn what_a_server_refuses_holds_and_is_named() {
+    let server = Server::of(true);
+    server.set("X", Value::Number(3500.0));
+    let mut bench = Bench::new(plan_with(&[]).unwrap_or_else(|e| panic!("{e:?}")), &server);
+    bench.pass(10.0);
+    let before = server.number("oX");
+    for (change, undo, says) in [
+        (
+            (|m: &mut Memory| m.refused = Some("mode".to_owned())) as fn(&mut Memory),
+            (|m: &mut Memory| m.refused = None) as fn(&mut Memory),
+            "ns=2;s=mode",
+        ),
+        (|m| m.is_down = true, |m| m.is_down = false, "the cable is pulled"),
+        (
+            |m| {
+                m.nodes.insert("Y".to_owned(), Value::Number(f64::NAN));
+            },
+            |m| {
+                m.nodes.insert("Y".to_owned(), Value::Number(0.0));
+            },
+            "is no number",
+        ),
+        (
+            |m| {
+                m.nodes.insert("emergency".to_owned(), Value::Flag(true));
+            },
+            |m| {
+                m.nodes.insert("emergency".to_owned(), Value::Flag(false));
+            },
+            "emergency stop",
+        ),
+        (
+            |m| {
+                m.nodes.insert("mode".to_owned(), Value::Number(0.0));
+            },
+            |m| {
+                m.nodes.insert("mode".to_owned(), Value::Number(2.0));
+            },
+            "mode of operation",
+        ),
+    ] {
+        change(&mut server.0.borrow_mut());
+        bench.pass(1.0);
+        assert!(bench.shown().contains(says), "{says}: {}", bench.shown());
+        assert_eq!(server.number("oX"), before);
+        undo(&mut server.0.borrow_mut());
+        bench.pass(3.0);
+        assert!(bench.shown().starts_with("Run"), "{says}: {}", bench.shown());
+    }
+    // Y is refused, X was taken: the vector is read again, nothing beyond a step.
+    server.0.borrow_mut().refused = Some("oY".to_owned());
+    server.set("X", Value::Number(0.0));
+    bench.pass(2.0);
+    assert!(
+        bench.shown().contains("ns=2;s=oY") || bench.shown().contains("refuses"),
+        "{}",
+        bench.shown()
+    );
+    server.0.borrow_mut().refused = None;
+    bench.pass(10.0);
+    assert_eq!(
+        bench.last.as_ref().map(|c| c.output.order.state),
+        Some(State::Run),
+        "{}",
+        bench.shown()
+    );
+    // Somebody else writes.
+    server.set("oX", Value::Number(0.2));
+    bench.pass(1.0);
+    assert!(bench.shown().starts_with("Latched"), "{}", bench.shown());
+    assert_eq!(server.number("oX"), 0.2);
+}
+
+#[test]
+fn another_control_and_missing_nodes_are_refused_at_the_start() {
+    let refused = |server: &Server, changes: &[(&str, &str)]| -> String {
+        let plan = plan_with(changes).unwrap_or_else(|e| panic!("{e:?}"));
+        let ControlPlan::OpcUa(opcua) = &plan.control else { panic!("OPC UA") };
+        let mut control = OpcUa::new(server.clone(), opcua_settings(&plan, opcua));
+        let found = compared(&plan, opcua, &mut control, 0.0).expect_err("refused");
+        assert!(server.0.borrow().written.is_empty(), "nothing is written");
+        found.iter().map(|d| format!("{}: {}", d.code, d.message)).collect()
+    };
+    let server = Server::of(true);
+    assert!(
+        refused(&server, &[("version = \"1.0\"", "version = \"2.0\"")])
+            .contains("live-other-control")
+    );
+    let unknown = refused(&server, &[("ns=2;s=inhibit", "ns=2;s=inhibited")]);
+    assert!(
+        unknown.contains("ns=2;s=inhibited") && unknown.contains("BadNodeIdUnknown"),
+        "{unknown}"
+    );
+    // What the plan itself lacks.
+    for (old, new, says) in [
+        ("security = \"sign-and-encrypt\"\n", "", "security"),
+        ("positions_have_offset = true\n", "", "positions_have_offset"),
+        (
+            "identity = { kind = \"Maker\", series = \"Server\", version = \"1.0\" }\n",
+            "",
+            "live-not-bound",
+        ),
+        ("emergency = \"ns=2;s=emergency\"\n", "", "emergency"),
+        ("ns=2;s=mode", "mode", "live-node"),
+        (", Z = \"ns=2;s=Z\"", "", "Z"),
+        ("opc.tcp://", "http://", "bad-address"),
+        ("security =", "user = \"u\"\nsecurity =", "password_file"),
+    ] {
+        let found = plan_with(&[(old, new)]).expect_err(says);
+        assert!(found.iter().any(|f| f.contains(says)), "{says}: {found:?}");
+    }
+}
