@@ -77,8 +77,13 @@ struct Row {
 }
 
 impl PartRecorder {
-    /// One cycle; the line that it ends.
-    pub fn add(&mut self, plan: &Plan, cycle: &Cycle, correction: &Correction) -> Option<PartLine> {
+    /// One cycle; the line that it ends. A dry run follows nothing.
+    pub fn add(
+        &mut self,
+        plan: &Plan,
+        cycle: &Cycle,
+        (correction, is_dry): (&Correction, bool),
+    ) -> Option<PartLine> {
         // Without a link nothing is known; what is read next shows where it went on.
         let Ok(seen) = &cycle.input.seen else {
             self.block.as_mut().into_iter().for_each(|open| open.followed = false);
@@ -110,7 +115,7 @@ impl PartRecorder {
             lacks: String::new(),
         };
         let open = self.block.get_or_insert_with(new);
-        open.followed &= cycle.output.order.state == State::Run;
+        open.followed &= !is_dry && cycle.output.order.state == State::Run;
         if let (Some(row), true) = (&row, is_known) {
             for (most, [.., left]) in open.largest.iter_mut().zip(&row.axes) {
                 *most = most.max(left.abs());
@@ -167,7 +172,7 @@ impl PartOfRun {
     /// One cycle of a run.
     pub fn cycle(&mut self, plan: &Plan, cycle: &Cycle, run: &mut Run<'_>) {
         if self.name.is_some()
-            && let Some(line) = self.recorder.add(plan, cycle, run.correction())
+            && let Some(line) = self.recorder.add(plan, cycle, (run.correction(), run.is_dry()))
         {
             self.put(cycle.input.now_s, line, run);
         }

@@ -114,6 +114,11 @@ impl<'a> Run<'a> {
         &self.correction
     }
 
+    /// Whether nothing is written.
+    pub fn is_dry(&self) -> bool {
+        self.dry
+    }
+
     /// What was counted.
     pub fn counts(&self) -> Counts {
         self.counts

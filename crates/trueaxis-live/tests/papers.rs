@@ -290,6 +290,27 @@ fn law_a_hole_made_while_a_sensor_was_lost_is_named() {
     assert!(refused.iter().all(lost) && (4..=7).contains(&refused.iter().count()), "{refused:?}");
 }
 
+/// In a dry run nothing acts, and the record says so.
+#[test]
+fn law_a_dry_run_follows_nothing() {
+    let mut rig = Rig::new(plan_with(&[]).unwrap());
+    rig.run = rig.run.dry();
+    rig.store.0.borrow_mut().part = Some("ARM-0417".to_owned());
+    let mut part = PartOfRun::default();
+    part.ask(&rig.plan, 0.0, &mut rig.run);
+    for _ in 0..400 {
+        rig.cycle();
+        let cycle = rig.last.clone().expect("a cycle");
+        part.cycle(&rig.plan, &cycle, &mut rig.run);
+    }
+    let lines = rig.store.0.borrow().part_lines.clone();
+    assert!(lines.len() > 2, "{lines:?}");
+    for line in lines.iter().filter(|l| !l.starts_with('#')) {
+        let cells: Vec<f64> = line.split(',').map(|c| c.parse().expect("a number")).collect();
+        assert_eq!((cells[4], cells[10]), (0.0, 0.0), "followed, X acted: {line}");
+    }
+}
+
 /// A record of a run, replayed, gives the same orders.
 #[test]
 fn law_a_record_is_replayed_to_the_same_bits() {
