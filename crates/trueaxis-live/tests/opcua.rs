@@ -288,7 +288,7 @@ fn what_a_server_refuses_holds_and_is_named() {
         "{}",
         bench.shown()
     );
-    // Somebody else writes.
+    // Another source writes.
     server.set("oX", Value::Number(0.2));
     bench.pass(1.0);
     assert!(bench.shown().starts_with("Latched"), "{}", bench.shown());

@@ -447,6 +447,42 @@ mod tests {
         assert!((instrument(Sight::Distance).read(&view, &[])[0] - 0.003).abs() < 1e-12);
     }
 
+    /// What an unknown of the set-up does to the exact reading is what its slope says, with its sign.
+    #[test]
+    fn law_the_slopes_of_the_set_up_are_those_of_the_reading() {
+        let turned = Rotation3::from_euler_angles(0.3, -0.4, 0.7).into_inner();
+        let nominal = Pose::new(turned, Vec3::new(160.0, -40.0, 95.0));
+        let direction = Vec3::new(0.36, 0.48, 0.8);
+        let drifted = Mat3::from_diagonal_element(0.7);
+        let view = View { nominal, actual: nominal, direction, drifted };
+        let errors = (0..3)
+            .flat_map(|i| {
+                use SetupError::{Drift, ReferencePoint, ReferenceTurn, ToolPoint, Zero};
+                [ToolPoint(i), ReferencePoint(i), ReferenceTurn(i), Zero(i), Drift(i)]
+            })
+            .chain([SetupError::Scale]);
+        let errors: Vec<SetupError> = errors.collect();
+        for sight in [Sight::ProbeOffset, Sight::Place, Sight::Distance, Sight::Along, Sight::Turn]
+        {
+            for error in &errors {
+                let mut probe = instrument(sight);
+                let name = "unknown".to_owned();
+                probe.unknowns = vec![SetupUnknown { name, error: *error, prior_u: None }];
+                let wrenches = probe.wrenches(&view);
+                for channel in 0..sight.channels() {
+                    let at = |value: f64| probe.read(&view, &[value])[channel];
+                    let by_reading = (at(1e-4) - at(-1e-4)) / 2e-4;
+                    let slope = probe.setup_slope(*error, channel, &wrenches[channel], &view);
+                    let apart = (by_reading - slope).abs();
+                    assert!(
+                        apart < 1e-4 * (1.0 + slope.abs()),
+                        "{sight:?} {error:?} {channel}: {by_reading} {slope}"
+                    );
+                }
+            }
+        }
+    }
+
     #[test]
     fn a_longer_bar_reads_more_by_as_much() {
         let nominal = Link::shift(Vec3::new(160.0, 0.0, 100.0));
