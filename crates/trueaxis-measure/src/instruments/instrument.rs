@@ -469,10 +469,10 @@ mod tests {
                 let name = "unknown".to_owned();
                 probe.unknowns = vec![SetupUnknown { name, error: *error, prior_u: None }];
                 let wrenches = probe.wrenches(&view);
-                for channel in 0..sight.channels() {
+                for (channel, wrench) in wrenches.iter().enumerate().take(sight.channels()) {
                     let at = |value: f64| probe.read(&view, &[value])[channel];
                     let by_reading = (at(1e-4) - at(-1e-4)) / 2e-4;
-                    let slope = probe.setup_slope(*error, channel, &wrenches[channel], &view);
+                    let slope = probe.setup_slope(*error, channel, wrench, &view);
                     let apart = (by_reading - slope).abs();
                     assert!(
                         apart < 1e-4 * (1.0 + slope.abs()),
