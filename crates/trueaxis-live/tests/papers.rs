@@ -11,6 +11,7 @@ use trueaxis::compensate::values::{error_of, error_split};
 use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::machine::Machine;
+use trueaxis::predict::acted::ActedRecord;
 use trueaxis::predict::holes::{
     Applied, Compensation, HolePrediction, HoleStudy, parse_hole_study, predict_holes,
 };
@@ -261,6 +262,12 @@ fn law_the_holes_do_not_depend_on_how_the_record_was_made() {
     // A hole that was not drilled is not in it.
     let lines: Vec<&str> = record.lines().collect();
     let head = lines.iter().take_while(|l| !l.starts_with(char::is_numeric)).count();
+    // An offset under another name would count as none.
+    let renamed = record.replace("X_acted_um", "X_moved_um");
+    let machine = &study.machine;
+    let mut problems = trueaxis::input::Diagnostics::new();
+    assert!(ActedRecord::parse("arm.csv", &renamed, machine, &mut problems).is_none());
+    assert!(problems.iter().any(|d| d.code == "unknown-column" && d.place.line == head));
     let short = lines[..head + 10].join("\n");
     let refused = predict_holes(&torque_arm(&short, true)).expect_err("holes are missing");
     assert!(refused.iter().all(|d| d.code == "not-in-record") && refused.iter().count() > 20);

@@ -105,7 +105,26 @@ fn column(
     table.in_unit(column, unit, problems)
 }
 
+/// Whether a heading is one of a record: an offset under a name of its own would count as none.
+fn is_known(heading: &str, machine: &Machine) -> bool {
+    let (stem, unit) = heading.rsplit_once('_').unwrap_or((heading, ""));
+    let of_axis = machine.axes().iter().any(|axis| {
+        let rest = stem.strip_prefix(&axis.name.to_string());
+        rest.is_some_and(|rest| ["", "_acted", "_target", "_left", "_left_largest"].contains(&rest))
+    });
+    let plain = ["time_s", "date_s", "program", "block", "followed", "known", "tcp"];
+    plain.contains(&heading) || stem == "time" || unit == "degC" || of_axis
+}
+
 fn read(table: &CsvTable, machine: &Machine, problems: &mut Diagnostics) -> Option<ActedRecord> {
+    for column in table.columns.iter().filter(|column| !is_known(&column.name, machine)) {
+        let message = format!("`{}` is no column of the record of a part", column.name);
+        let hint = "time_s, block, followed, known, tcp, X_mm, X_acted_um, X_target_um, X_left_um, scale_x_degC, with the axes of the machine file";
+        problems.error("unknown-column", column.place.clone(), message, hint);
+    }
+    if problems.has_errors() {
+        return None;
+    }
     let needed = |name: &str, dimension: Dimension, problems: &mut Diagnostics| {
         let found = column(table, (name, dimension), problems);
         if found.is_none() && !problems.has_errors() {
