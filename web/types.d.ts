@@ -7640,9 +7640,9 @@ export interface LiveExpect {
   tool_axis_urad: number | null;
   /**
    * The largest deviation of the tip in the directions that no live axis corrects, and by errors that do not change with
-   * the position of their axis: squareness, straightness, roll.
+   * the position of their axis: squareness, straightness, roll. Null where the control takes whole poses.
    */
-  other_tip_um: number;
+  other_tip_um: number | null;
   /**
    * The problems found in the input; the command line prints them on standard error, too.
    */
@@ -7783,7 +7783,7 @@ export interface ExpectedPoses {
    */
   poses: number;
   /**
-   * Rows of the log.
+   * Rows of the log that are shown.
    */
   rows: number;
   /**

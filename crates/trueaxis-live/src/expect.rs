@@ -14,11 +14,12 @@ pub use losses::ExpectedLoss;
 pub use poses::{ExpectedOffset, ExpectedPoses};
 
 use crate::cycle::AGE_PERIODS;
-use crate::file::{Plan, SensorPlan, Source, read_plan};
+use crate::file::{AxisPlan, Plan, SensorPlan, Source, read_plan};
 use crate::model::{LiveAxis, Model, at, remembered};
-use losses::Day;
+use losses::{Day, HOUR_S, TEN_MINUTES_S};
 use schemars::JsonSchema;
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use trueaxis::compensate::values::travel_positions;
 use trueaxis::input::{Diagnostics, Files, Place};
@@ -29,7 +30,7 @@ use trueaxis::questions::{Question, Tell};
 
 /// Places on the travel of an axis.
 const PLACES: f64 = 20.0;
-/// Rows of the log that are evaluated, at most.
+/// Rows of the log that are shown, at most.
 const MOST_ROWS: usize = 500;
 
 /// A forecast.
@@ -65,8 +66,8 @@ pub struct LiveExpectDocument {
     /// angular errors.
     pub tool_axis_urad: Option<f64>,
     /// The largest deviation of the tip in the directions that no live axis corrects, and by errors that do not change with
-    /// the position of their axis: squareness, straightness, roll.
-    pub other_tip_um: f64,
+    /// the position of their axis: squareness, straightness, roll. Null where the control takes whole poses.
+    pub other_tip_um: Option<f64>,
 }
 
 /// One live axis over the day. Numbers are in `unit`.
@@ -172,6 +173,8 @@ fn column(sensor: &SensorPlan) -> &str {
 
 /// Of each live axis at its places. Unit: mm or rad.
 type Offsets = Vec<Vec<f64>>;
+/// The same of errors. Unit: mm or rad.
+type Errors = Vec<Vec<f64>>;
 
 /// The column of the log that a sensor is read from.
 type Column<'a> = &'a dyn Fn(&SensorPlan) -> String;
@@ -179,8 +182,7 @@ type Column<'a> = &'a dyn Fn(&SensorPlan) -> String;
 /// The errors of one axis over its travel at the temperatures of a row.
 struct Row {
     warm: Machine,
-    /// Errors at the places, mm or rad, of each live axis.
-    errors: Vec<Vec<f64>>,
+    errors: Errors,
 }
 
 /// The forecast of a day.
@@ -195,35 +197,58 @@ pub fn expect(
     if plan.control.takes_pose() {
         let (poses, losses) = poses::expect(plan, log, without)?;
         let document = Found::default().document(plan, log, losses);
-        return Ok(LiveExpectDocument { poses: Some(poses), axes: Vec::new(), ..document });
+        return Ok(LiveExpectDocument {
+            poses: Some(poses),
+            axes: Vec::new(),
+            other_tip_um: None,
+            ..document
+        });
     }
     let model = model_of(plan);
     let places: Vec<Vec<f64>> =
         plan.axes.iter().map(|axis| places(&plan.machine, axis.axis)).collect();
-    let step = log.times_s().len().div_ceil(MOST_ROWS).max(1);
     let mut found = Found::new(plan);
-    let mut rows: Vec<(usize, Row)> = Vec::new();
-    let mut all: Vec<Offsets> = Vec::new();
+    let mut rows: Vec<(usize, Errors)> = Vec::new();
+    let mut held: Vec<(usize, Offsets)> = Vec::new();
     let own = |sensor: &SensorPlan| column(sensor).to_owned();
     let mut heat = Heat::of(plan, log, &own);
-    for (i, time_s) in log.times_s().iter().enumerate().step_by(step) {
+    let mut last = None;
+    for (i, is_shown) in moments(log.times_s(), MOST_ROWS) {
         let row = row(plan, &model, (&mut heat, i), &places)?;
-        let sampled = rows.last().map_or(&row, |(_, row)| row);
-        let held = follow(plan, sampled, all.last());
-        found.add(plan, *time_s, (&row, sampled, &held), &places);
-        found.others(plan, &row, &places)?;
-        all.push(held);
-        rows.push((i, row));
+        if is_shown {
+            let sampled = rows.last().map_or(&row.errors, |(_, errors)| errors);
+            let now = follow(plan, sampled, held.last().map(|(_, before)| before));
+            found.add(plan, log.times_s()[i], (&row.errors, sampled, &now), &places);
+            found.others(plan, &row, &places)?;
+            held.push((rows.len(), now));
+        }
+        rows.push((i, row.errors));
+        last = Some(row.warm);
     }
-    let (_, last) = rows.last().ok_or("the log has no row")?;
-    found.uncertainty(plan, last, &places);
-    let day = Day { plan, model: &model, log, places: &places, rows, held: all };
+    found.uncertainty(plan, &last.ok_or("the log has no row")?, &places);
+    let day = Day { plan, model: &model, log, places: &places, rows, held };
     Ok(found.document(plan, log, day.losses(without)?))
 }
 
+/// Which rows of a log are evaluated, in their order: at most so many over the day, which are shown; with each the row before it,
+/// that its sample is of, and the last rows within ten minutes and within an hour after it. So what a forecast says does not
+/// depend on how many rows a log has.
+fn moments(times_s: &[f64], most: usize) -> Vec<(usize, bool)> {
+    let step = times_s.len().div_ceil(most).max(1);
+    let mut found = BTreeMap::new();
+    for i in (0..times_s.len()).step_by(step) {
+        for span_s in [TEN_MINUTES_S, HOUR_S] {
+            let after = times_s.partition_point(|t| *t <= times_s[i] + span_s);
+            found.entry(after - 1).or_insert(false);
+        }
+        found.entry(i.saturating_sub(1)).or_insert(false);
+        found.insert(i, true);
+    }
+    found.into_iter().collect()
+}
+
 fn model_of(plan: &Plan) -> Model {
-    let live =
-        |a: &crate::file::AxisPlan| LiveAxis { axis: a.axis, increment: a.increment, sign: a.sign };
+    let live = |a: &AxisPlan| LiveAxis { axis: a.axis, increment: a.increment, sign: a.sign };
     Model::new(plan.machine.clone(), plan.of, plan.part, plan.axes.iter().map(live).collect())
 }
 
@@ -302,20 +327,23 @@ fn row(
     Ok(Row { warm, errors })
 }
 
-/// The offsets at all places, mm or rad: whole increments that follow with the dead band, within the limit.
-fn follow(plan: &Plan, sampled: &Row, before: Option<&Offsets>) -> Offsets {
+/// The offsets at all places, mm or rad.
+fn follow(plan: &Plan, sampled: &Errors, before: Option<&Offsets>) -> Offsets {
     let axis = |(live, errors): (usize, &Vec<f64>)| {
-        let own = &plan.axes[live];
-        let limit = f64::from(own.limits.limit);
-        let one = |(i, error): (usize, &f64)| {
-            let target = (-error / own.increment).clamp(-limit, limit);
-            let held = before.map(|all| all[live][i] / own.increment);
-            let stays = held.filter(|held| (target - held).abs() < own.limits.dead_band.max(1.0));
-            stays.unwrap_or_else(|| target.round()) * own.increment
-        };
+        let one =
+            |(i, e): (usize, &f64)| followed(&plan.axes[live], -e, before.map(|all| all[live][i]));
         errors.iter().enumerate().map(one).collect()
     };
-    sampled.errors.iter().enumerate().map(axis).collect()
+    sampled.iter().enumerate().map(axis).collect()
+}
+
+/// One offset, mm or rad: in whole increments it follows with the dead band, within the limit.
+fn followed(own: &AxisPlan, wanted: f64, before: Option<f64>) -> f64 {
+    let limit = f64::from(own.limits.limit);
+    let target = (wanted / own.increment).clamp(-limit, limit);
+    let held = before.map(|before| before / own.increment);
+    let stays = held.filter(|held| (target - held).abs() < own.limits.dead_band.max(1.0));
+    stays.unwrap_or_else(|| target.round()) * own.increment
 }
 
 /// What was found so far, mm and rad.
@@ -359,12 +387,12 @@ impl Found {
         &mut self,
         plan: &Plan,
         time_s: f64,
-        (row, sampled, held): (&Row, &Row, &Vec<Vec<f64>>),
+        (errors, sampled, held): (&Errors, &Errors, &Offsets),
         places: &[Vec<f64>],
     ) {
         let (mut before, mut after) = (Vec::new(), Vec::new());
         for (live, worst) in self.axes.iter_mut().enumerate() {
-            let (errors, then, held) = (&row.errors[live], &sampled.errors[live], &held[live]);
+            let (errors, then, held) = (&errors[live], &sampled[live], &held[live]);
             let left = errors.iter().zip(held).map(|(e, h)| e + h);
             let (without, with) = (largest(errors.iter().copied()), largest(left));
             worst.before = worst.before.max(without);
@@ -412,7 +440,7 @@ impl Found {
         Ok(())
     }
 
-    fn uncertainty(&mut self, plan: &Plan, last: &Row, places: &[Vec<f64>]) {
+    fn uncertainty(&mut self, plan: &Plan, last: &Machine, places: &[Vec<f64>]) {
         use trueaxis::compensate::values::{Order, compensation_values};
         for (live, worst) in self.axes.iter_mut().enumerate() {
             let axis = &plan.axes[live];
@@ -424,7 +452,7 @@ impl Found {
                 increment,
                 of: plan.of,
             };
-            let table = compensation_values(&last.warm, &order).ok();
+            let table = compensation_values(last, &order).ok();
             let u = table.iter().flat_map(|t| &t.nodes).filter_map(|n| n.u);
             worst.u = u.fold(None, |most: Option<f64>, u| Some(most.map_or(u, |m| m.max(u))));
         }
@@ -464,7 +492,7 @@ impl Found {
             losses,
             poses: None,
             tool_axis_urad: (self.turned_rad > 0.0).then_some(self.turned_rad * 1e6),
-            other_tip_um: self.other_mm * 1e3,
+            other_tip_um: Some(self.other_mm * 1e3),
         }
     }
 }

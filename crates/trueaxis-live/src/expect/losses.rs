@@ -5,7 +5,7 @@
 //!     else the run holds:       left(t + T, q) = e(t + T, q) + offset(t, q),  T up to 10 min, 1 h, the rest of the day
 //! ```
 
-use super::{Heat, Offsets, Row, column, follow, largest, row, shown};
+use super::{Column, Errors, Heat, Offsets, column, follow, largest, row, shown};
 use crate::file::{Plan, SensorPlan};
 use crate::model::Model;
 use schemars::JsonSchema;
@@ -14,6 +14,8 @@ use trueaxis::machine::heat::TemperatureLog;
 
 pub(super) const TEN_MINUTES_S: f64 = 600.0;
 pub(super) const HOUR_S: f64 = 3600.0;
+/// How long a sensor is lost.
+pub(super) const SPANS_S: [f64; 3] = [TEN_MINUTES_S, HOUR_S, f64::INFINITY];
 
 /// The loss of one sensor. Errors are the largest over the day and the travel, whenever it is lost; in the order of the axes, in
 /// their units; of a control that takes whole poses tip (µm) and tool axis (µrad).
@@ -37,48 +39,60 @@ pub(super) struct Day<'a> {
     pub model: &'a Model,
     pub log: &'a TemperatureLog,
     pub places: &'a [Vec<f64>],
-    /// The place of each row in the log, and what it came to.
-    pub rows: Vec<(usize, Row)>,
-    /// What stood in the control at each of them.
-    pub held: Vec<Offsets>,
+    /// The place of each row in the log, and its errors.
+    pub rows: Vec<(usize, Errors)>,
+    /// What stood in the control at those that are shown, by their places in `rows`.
+    pub held: Vec<(usize, Offsets)>,
 }
 
-impl Day<'_> {
-    /// The loss of every sensor, or of one.
-    pub fn losses(&self, without: Option<&str>) -> Result<Vec<ExpectedLoss>, String> {
-        let sensors = self.plan.sensors.iter();
-        let wanted = sensors.filter(|s| without.is_none_or(|name| name == s.settings.name));
-        let hold = self.hold();
-        wanted.map(|sensor| self.loss(sensor, &hold)).collect()
-    }
-
-    fn loss(&self, sensor: &SensorPlan, hold: &[Vec<f64>; 3]) -> Result<ExpectedLoss, String> {
-        let other = sensor.settings.instead.map(|i| &self.plan.sensors[i]);
+/// The loss of every sensor, or of one: `hold` gives what remains after three times where nothing stands in, `stands_in` what
+/// remains where another one does.
+pub(super) fn losses(
+    plan: &Plan,
+    without: Option<&str>,
+    hold: impl FnOnce() -> Result<[Vec<f64>; 3], String>,
+    stands_in: impl Fn(Column<'_>) -> Result<Vec<f64>, String>,
+) -> Result<Vec<ExpectedLoss>, String> {
+    let hold = hold()?;
+    let wanted = plan.sensors.iter();
+    let wanted = wanted.filter(|s| without.is_none_or(|name| name == s.settings.name));
+    let loss = |lost: &SensorPlan| {
+        let other = lost.settings.instead.map(|i| &plan.sensors[i]);
         let [after_10_min, after_1_h, rest_of_day] = match other {
             Some(other) => {
-                let left = self.stands_in(sensor, other)?;
+                let left = stands_in(&|sensor| {
+                    let is_lost = sensor.settings.name == lost.settings.name;
+                    column(if is_lost { other } else { sensor }).to_owned()
+                })?;
                 [left.clone(), left.clone(), left]
             }
             None => hold.clone(),
         };
         let instead = other.map(|other| other.settings.name.clone());
-        let sensor = sensor.settings.name.clone();
+        let sensor = lost.settings.name.clone();
         Ok(ExpectedLoss { sensor, instead, after_10_min, after_1_h, rest_of_day })
+    };
+    wanted.map(loss).collect()
+}
+
+impl Day<'_> {
+    pub fn losses(&self, without: Option<&str>) -> Result<Vec<ExpectedLoss>, String> {
+        losses(self.plan, without, || Ok(self.hold()), |column| self.stands_in(column))
     }
 
     /// The offset stays as it is: largest errors up to each of three times.
     fn hold(&self) -> [Vec<f64>; 3] {
         let times = self.log.times_s();
-        [TEN_MINUTES_S, HOUR_S, f64::INFINITY].map(|most_s| {
+        SPANS_S.map(|most_s| {
             let axis = |live: usize| {
                 let mut worst = 0.0f64;
-                for (i, (at, _)) in self.rows.iter().enumerate() {
-                    let held = &self.held[i][live];
-                    for (later, row) in &self.rows[i..] {
-                        if times[*later] - times[*at] > most_s {
+                for (i, held) in &self.held {
+                    let lost_s = times[self.rows[*i].0];
+                    for (later, errors) in &self.rows[*i..] {
+                        if times[*later] - lost_s > most_s {
                             break;
                         }
-                        let left = row.errors[live].iter().zip(held).map(|(e, h)| e + h);
+                        let left = errors[live].iter().zip(&held[live]).map(|(e, h)| e + h);
                         worst = worst.max(largest(left));
                     }
                 }
@@ -89,18 +103,14 @@ impl Day<'_> {
     }
 
     /// Another sensor takes its place.
-    fn stands_in(&self, lost: &SensorPlan, other: &SensorPlan) -> Result<Vec<f64>, String> {
+    fn stands_in(&self, swapped: Column<'_>) -> Result<Vec<f64>, String> {
         let mut worst = vec![0.0f64; self.plan.axes.len()];
-        let swapped = |sensor: &SensorPlan| {
-            let is_lost = sensor.settings.name == lost.settings.name;
-            column(if is_lost { other } else { sensor }).to_owned()
-        };
-        let mut heat = Heat::of(self.plan, self.log, &swapped);
+        let mut heat = Heat::of(self.plan, self.log, swapped);
         for (at, now) in &self.rows {
             let read = row(self.plan, self.model, (&mut heat, *at), self.places)?;
-            let held = follow(self.plan, &read, None);
+            let held = follow(self.plan, &read.errors, None);
             for (live, worst) in worst.iter_mut().enumerate() {
-                let left = now.errors[live].iter().zip(&held[live]).map(|(e, h)| e + h);
+                let left = now[live].iter().zip(&held[live]).map(|(e, h)| e + h);
                 *worst = worst.max(largest(left) * shown(self.plan, live));
             }
         }

@@ -5,8 +5,8 @@
 //!     left(t, q) = actual pose at q + by  −  nominal pose at q
 //! ```
 
-use super::losses::{ExpectedLoss, HOUR_S, TEN_MINUTES_S};
-use super::{Column, Heat, column};
+use super::losses::{ExpectedLoss, SPANS_S, losses};
+use super::{Column, Heat, column, followed, moments};
 use crate::file::{Plan, SensorPlan};
 use crate::model::Part;
 use crate::pose::{PoseCorrection, turns};
@@ -21,7 +21,7 @@ use trueaxis::machine::volume::commands;
 
 /// Poses beside the corners of the travel.
 const POSES: u32 = 40;
-/// Rows of the log that are evaluated, at most.
+/// Rows of the log that are shown, at most.
 const MOST_ROWS: usize = 60;
 
 /// Tip and tool axis over the day, in poses over the whole travel, standing still.
@@ -29,7 +29,7 @@ const MOST_ROWS: usize = 60;
 pub struct ExpectedPoses {
     /// Poses: the corners of the travel, and others that fill it evenly.
     pub poses: usize,
-    /// Rows of the log.
+    /// Rows of the log that are shown.
     pub rows: usize,
     /// Tip: the largest distance from where it should be, without the correction and with it.
     pub tip_um: [f64; 2],
@@ -85,8 +85,8 @@ pub(super) struct Day<'a> {
     turns: bool,
     /// What tables in the control add in each pose where only the thermal part goes live; they count as exact. Unit: mm or rad.
     tables: Vec<Command>,
-    /// The places of the rows in the log.
-    at: Vec<usize>,
+    /// The places of the rows in the log, and which are shown.
+    at: Vec<(usize, bool)>,
 }
 
 /// Poses over the travel, a hundredth of it away from its ends: there an offset has no room.
@@ -108,7 +108,6 @@ pub(super) fn expect(
     without: Option<&str>,
 ) -> Result<(ExpectedPoses, Vec<ExpectedLoss>), String> {
     let machine = &plan.machine;
-    let step = log.times_s().len().div_ceil(MOST_ROWS).max(1);
     let poses = inside(machine);
     let turns = turns(machine, |i| plan.axes.iter().any(|axis| axis.axis == i));
     let cold = PoseCorrection::of(machine, turns)?;
@@ -122,7 +121,7 @@ pub(super) fn expect(
         tables: poses.iter().map(table).collect::<Result<_, String>>()?,
         poses,
         turns,
-        at: (0..log.times_s().len()).step_by(step).collect(),
+        at: moments(log.times_s(), MOST_ROWS),
     };
     let own = |sensor: &SensorPlan| column(sensor).to_owned();
     let rows = day.rows(&own)?;
@@ -131,13 +130,15 @@ pub(super) fn expect(
     }
     let held = day.held(&rows);
     let found = day.found(&rows, &held)?;
-    Ok((found, day.losses(&rows, &held, without)?))
+    let hold = || day.hold(&rows, &held);
+    let lost = losses(plan, without, hold, |column| day.stands_in(&rows, column))?;
+    Ok((found, lost))
 }
 
 impl Day<'_> {
     fn rows(&self, column: Column<'_>) -> Result<Vec<Row>, String> {
         let mut heat = Heat::of(self.plan, self.log, column);
-        let row = |at: &usize| {
+        let row = |(at, _): &(usize, bool)| {
             let warm = heat.machine_at(*at)?;
             let hot = PoseCorrection::of(&warm, self.turns)?;
             let wanted = self.poses.iter().zip(&self.tables).map(|(pose, table)| {
@@ -150,29 +151,31 @@ impl Day<'_> {
         self.at.iter().map(row).collect()
     }
 
-    /// What stands in the control at each row: the sample of the row before, in whole increments, within the limits.
-    fn held(&self, rows: &[Row]) -> Vec<Vec<Command>> {
-        let mut all: Vec<Vec<Command>> = Vec::with_capacity(rows.len());
-        for i in 0..rows.len() {
+    /// What stands in the control at each row that is shown, with its place among the rows.
+    fn held(&self, rows: &[Row]) -> Vec<(usize, Vec<Command>)> {
+        let mut all: Vec<(usize, Vec<Command>)> = Vec::new();
+        for i in self.shown() {
             let sampled = &rows[i.saturating_sub(1)];
-            let before = all.last();
+            let before = all.last().map(|(_, poses)| poses);
             let pose = |(k, wanted): (usize, &Command)| {
                 self.counted(wanted, before.map(|poses| &poses[k]))
             };
             let held = sampled.wanted.iter().enumerate().map(pose).collect();
-            all.push(held);
+            all.push((i, held));
         }
         all
+    }
+
+    /// The rows that are shown, by their places.
+    fn shown(&self) -> impl Iterator<Item = usize> {
+        self.at.iter().enumerate().filter(|(_, (_, is_shown))| *is_shown).map(|(i, _)| i)
     }
 
     fn counted(&self, wanted: &Command, before: Option<&Command>) -> Command {
         let mut held = Command::default();
         for own in &self.plan.axes {
-            let limit = f64::from(own.limits.limit);
-            let target = (wanted[own.axis] / own.increment).clamp(-limit, limit);
-            let stays = before.map(|before| before[own.axis] / own.increment);
-            let stays = stays.filter(|n| (target - n).abs() < own.limits.dead_band.max(1.0));
-            held[own.axis] = stays.unwrap_or_else(|| target.round()) * own.increment;
+            let before = before.map(|before| before[own.axis]);
+            held[own.axis] = followed(own, wanted[own.axis], before);
         }
         held
     }
@@ -183,19 +186,19 @@ impl Day<'_> {
         Ok(Off { tip_mm: tip_mm.norm(), axis_rad: axis.norm() })
     }
 
-    fn found(&self, rows: &[Row], held: &[Vec<Command>]) -> Result<ExpectedPoses, String> {
+    fn found(&self, rows: &[Row], held: &[(usize, Vec<Command>)]) -> Result<ExpectedPoses, String> {
         let (mut before, mut after, mut by_age) = (Off::default(), Off::default(), 0.0_f64);
         let mut worst = (0, 0);
         let mut needed = Command::default();
-        for (i, row) in rows.iter().enumerate() {
-            let sampled = &rows[i.saturating_sub(1)].wanted;
+        for (i, held) in held {
+            let (row, sampled) = (&rows[*i], &rows[i.saturating_sub(1)].wanted);
             for (k, pose) in self.poses.iter().enumerate() {
                 let without = self.off(&row.warm, pose, &self.tables[k])?;
                 if without.tip_mm > before.tip_mm {
-                    worst = (i, k);
+                    worst = (*i, k);
                 }
                 before = before.largest(without);
-                after = after.largest(self.off(&row.warm, pose, &self.with(k, &held[i][k]))?);
+                after = after.largest(self.off(&row.warm, pose, &self.with(k, &held[k]))?);
                 let exact = self.with(k, &self.live(&sampled[k]));
                 by_age = by_age.max(self.off(&row.warm, pose, &exact)?.tip_mm);
                 for (most, wanted) in needed.iter_mut().zip(&row.wanted[k]) {
@@ -213,7 +216,7 @@ impl Day<'_> {
         let has_turns = self.plan.machine.axes().iter().any(|axis| axis.kind == AxisKind::Rotary);
         Ok(ExpectedPoses {
             poses: self.poses.len(),
-            rows: rows.len(),
+            rows: held.len(),
             tip_um: [before.tip_mm, after.tip_mm].map(|mm| mm * 1e3),
             tip_by_age_um: by_age * 1e3,
             tip_expanded_uncertainty_um: uncertainty(&rows[worst.0].warm, &self.poses[worst.1])?
@@ -239,51 +242,16 @@ impl Day<'_> {
 
 /// What the loss of a sensor costs: tip (µm) and tool axis (µrad).
 impl Day<'_> {
-    fn losses(
-        &self,
-        rows: &[Row],
-        held: &[Vec<Command>],
-        without: Option<&str>,
-    ) -> Result<Vec<ExpectedLoss>, String> {
-        let sensors = self.plan.sensors.iter();
-        let wanted = sensors.filter(|s| without.is_none_or(|name| name == s.settings.name));
-        let mut hold = None;
-        let mut losses = Vec::new();
-        for sensor in wanted {
-            let other = sensor.settings.instead.map(|i| &self.plan.sensors[i]);
-            let [after_10_min, after_1_h, rest_of_day] = match other {
-                Some(other) => {
-                    let left = self.stands_in(rows, sensor, other)?;
-                    [left.clone(), left.clone(), left]
-                }
-                None => {
-                    if hold.is_none() {
-                        hold = Some(self.hold(rows, held)?);
-                    }
-                    hold.clone().unwrap_or_default()
-                }
-            };
-            losses.push(ExpectedLoss {
-                sensor: sensor.settings.name.clone(),
-                instead: other.map(|other| other.settings.name.clone()),
-                after_10_min,
-                after_1_h,
-                rest_of_day,
-            });
-        }
-        Ok(losses)
-    }
-
     /// The offset stays as it is, at the pose where it was: largest errors up to each of three times.
-    fn hold(&self, rows: &[Row], held: &[Vec<Command>]) -> Result<[Vec<f64>; 3], String> {
+    fn hold(&self, rows: &[Row], held: &[(usize, Vec<Command>)]) -> Result<[Vec<f64>; 3], String> {
         let mut worst = [Off::default(); 3];
-        for (i, lost) in rows.iter().enumerate() {
-            for later in &rows[i..] {
+        for (i, held) in held {
+            for later in &rows[*i..] {
+                let since_s = later.at_s - rows[*i].at_s;
                 for (k, pose) in self.poses.iter().enumerate() {
-                    let off = self.off(&later.warm, pose, &self.with(k, &held[i][k]))?;
-                    let spans_s = [TEN_MINUTES_S, HOUR_S, f64::INFINITY];
-                    for (worst, most_s) in worst.iter_mut().zip(spans_s) {
-                        if later.at_s - lost.at_s <= most_s {
+                    let off = self.off(&later.warm, pose, &self.with(k, &held[k]))?;
+                    for (worst, most_s) in worst.iter_mut().zip(SPANS_S) {
+                        if since_s <= most_s {
                             *worst = worst.largest(off);
                         }
                     }
@@ -294,18 +262,9 @@ impl Day<'_> {
     }
 
     /// Another sensor takes its place.
-    fn stands_in(
-        &self,
-        rows: &[Row],
-        lost: &SensorPlan,
-        other: &SensorPlan,
-    ) -> Result<Vec<f64>, String> {
-        let swapped = |sensor: &SensorPlan| {
-            let is_lost = sensor.settings.name == lost.settings.name;
-            column(if is_lost { other } else { sensor }).to_owned()
-        };
+    fn stands_in(&self, rows: &[Row], swapped: Column<'_>) -> Result<Vec<f64>, String> {
         let mut worst = Off::default();
-        for (row, read) in rows.iter().zip(self.rows(&swapped)?) {
+        for (row, read) in rows.iter().zip(self.rows(swapped)?) {
             for (k, pose) in self.poses.iter().enumerate() {
                 let by = self.with(k, &self.counted(&read.wanted[k], None));
                 worst = worst.largest(self.off(&row.warm, pose, &by)?);

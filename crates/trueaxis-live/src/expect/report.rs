@@ -57,10 +57,6 @@ impl Answer for LiveExpectAnswer {
             "slew per second",
             "",
         ];
-        let others = format!(
-            "not corrected by offsets of the axes: {} µm of the tip (squareness, straightness, angles)",
-            fixed(self.0.other_tip_um, 1)
-        );
         let turned = self
             .0
             .tool_axis_urad
@@ -69,7 +65,11 @@ impl Answer for LiveExpectAnswer {
         if let Some(poses) = &self.0.poses {
             return self.of_poses(report, poses);
         }
-        let report = report.line(others);
+        let others = self.0.other_tip_um.map(|um| {
+            let um = fixed(um, 1);
+            format!("not corrected by offsets of the axes: {um} µm of the tip (squareness, straightness, angles)")
+        });
+        let report = others.into_iter().fold(report, Report::line);
         let report = turned.into_iter().fold(report, |report, line| report.line(line));
         report
             .section(

@@ -1,4 +1,4 @@
-//! The forecast of a control that takes whole poses: against the same machine, pose by pose.
+//! Forecasts: what they say by hand, whatever the rows of the log.
 
 mod rig;
 
@@ -91,4 +91,64 @@ fn law_the_price_of_a_sensor_does_not_depend_on_the_rows() {
     assert_eq!(a.1.losses.len(), 1);
     assert!((rest(&a.1) - rest(&b.1)).abs() < 0.05 * rest(&a.1), "{} {}", rest(&a.1), rest(&b.1));
     assert!(a.1.losses[0].after_10_min[0] < a.1.losses[0].after_1_h[0]);
+}
+
+/// A log of many rows is thinned; its sample is a row old all the same, and ten minutes and an hour are not those of the thinned rows.
+#[test]
+fn law_a_forecast_does_not_depend_on_how_many_rows_a_log_has() {
+    for step_s in [600.0, 10.0] {
+        let log = day(step_s, 10.0);
+        let (found, document) = poses(&plan(&[]), &log);
+        // By hand −1.5 µm/K · 10 K; the first rows change most.
+        let after = |s: f64| 15.0 * (1.0 - f64::exp(-s / 3600.0));
+        let by_age = found.tip_by_age_um;
+        assert!(
+            by_age > 0.9 * after(step_s) && by_age < 1.02 * after(step_s),
+            "{step_s} s: {by_age}"
+        );
+        // Lost at the first row, or at the next one with an offset that is a row old.
+        let loss = &document.losses[0];
+        for (span_s, cost) in
+            [(600.0, &loss.after_10_min), (3600.0, &loss.after_1_h), (14_400.0, &loss.rest_of_day)]
+        {
+            let (least, most) = (0.99 * after(span_s), 1.01 * after(span_s + step_s));
+            assert!(
+                (least..most).contains(&cost[0]),
+                "{step_s} s, {span_s} s: {} of {least} to {most}",
+                cost[0]
+            );
+        }
+        assert!(document.other_tip_um.is_none());
+    }
+}
+
+/// The same axis by axis: by hand X at 3500 mm changes by (10.8 − 13.2) · 3.5 µm/K where scale and workpiece warm alike.
+#[test]
+fn law_a_forecast_of_axes_does_not_depend_on_how_many_rows_a_log_has() {
+    let of = |step_s: f64| {
+        let mut text = "time_s,scale_x_degC,scale_y_degC,workpiece_degC\n".to_owned();
+        let mut time_s = 0.0;
+        while time_s <= 14_400.0 {
+            let celsius = 20.0 + 10.0 * time_s / 14_400.0;
+            writeln!(text, "{time_s},{celsius},{celsius},{celsius}").unwrap();
+            time_s += step_s;
+        }
+        let log = TemperatureLog::parse("day.csv", &text, &mut Diagnostics::new()).expect("a log");
+        let plan = rig::plan_with(&[]).unwrap_or_else(|e| panic!("{e:?}"));
+        expect(&plan, &log, None).unwrap_or_else(|e| panic!("{e}"))
+    };
+    let (coarse, fine) = (of(600.0), of(10.0));
+    for (found, step_s) in [(&coarse, 600.0), (&fine, 10.0)] {
+        let by_hand = 2.4 * 3.5 * 10.0 * step_s / 14_400.0;
+        let by_age = found.axes[0].by_age;
+        assert!((by_age - by_hand).abs() < 0.02 * by_hand, "{step_s} s: {by_age} {by_hand}");
+    }
+    // 10 min of a sensor that is lost for good, beside one increment and the dead band.
+    for (of, by_hand) in [(0, 3.5), (1, 21.0)] {
+        for found in [&coarse, &fine] {
+            let loss = &found.losses[0];
+            let cost = [&loss.after_10_min, &loss.after_1_h][of][0];
+            assert!((by_hand..by_hand + 5.1).contains(&cost), "{cost} {by_hand}");
+        }
+    }
 }
