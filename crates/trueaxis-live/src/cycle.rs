@@ -11,6 +11,7 @@ use crate::pose::Frame;
 use crate::sensor::{Judged, Sample, Watch};
 use serde::{Deserialize, Serialize};
 use trueaxis::machine::axis::Command;
+use trueaxis::machine::heat::ThermalMemory;
 
 /// What one cycle reads.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -62,7 +63,7 @@ pub const AGE_PERIODS: f64 = 2.0;
 const SETTLED_S: f64 = 0.5;
 
 /// An axis that moves by less in one cycle stands. Unit: mm or rad.
-const STANDS: f64 = 2e-3;
+pub(crate) const STANDS: f64 = 2e-3;
 
 /// Sensors, model and governor of a run.
 #[derive(Debug, Clone)]
@@ -147,8 +148,8 @@ impl Correction {
     }
 
     /// The heat in the scales, for the next run; none of a machine without heated places.
-    pub fn memory(&self) -> Option<HeatOfRun> {
-        self.model.memory().cloned().map(HeatOfRun::from)
+    pub fn memory(&self) -> Option<&ThermalMemory> {
+        self.model.memory()
     }
 
     /// What is subtracted from every target: it was missing when the zero of the part was touched.

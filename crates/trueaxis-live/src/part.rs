@@ -10,7 +10,7 @@
 //! a block or a cycle makes many. `trueaxis predict` reads it: `[compensation] acted = "…"`.
 
 use crate::control::{Block, Seen};
-use crate::cycle::Correction;
+use crate::cycle::{Correction, STANDS};
 use crate::file::{AxisPlan, Plan};
 use crate::governor::State;
 use crate::pose::Frame;
@@ -18,18 +18,7 @@ use crate::run::{Cycle, Run};
 use crate::status::is_linear;
 use std::fmt::Write;
 use trueaxis::machine::axis::{AxisKind, Command};
-
-/// An axis that moves by less in one cycle stands. Unit: mm or rad.
-const STANDS: f64 = 2e-3;
-
-/// One line of a record.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum PartLine {
-    /// A row.
-    Row(String),
-    /// A block before anything was known: `# ` and why.
-    Remark(String),
-}
+use trueaxis::predict::acted::is_lateral;
 
 /// Makes the rows of a part out of the cycles of a run.
 #[derive(Debug, Clone, Default)]
@@ -83,7 +72,7 @@ impl PartRecorder {
         plan: &Plan,
         cycle: &Cycle,
         (correction, is_dry): (&Correction, bool),
-    ) -> Option<PartLine> {
+    ) -> Option<String> {
         // Without a link nothing is known; what is read next shows where it went on.
         let Ok(seen) = &cycle.input.seen else {
             self.block.as_mut().into_iter().for_each(|open| open.followed = false);
@@ -125,28 +114,24 @@ impl PartRecorder {
         line
     }
 
-    /// The line of the block that is executed now: the record ends.
-    pub fn end(&mut self) -> Option<PartLine> {
+    /// The line of the block that is executed now: a row, or a remark where nothing was known.
+    pub fn end(&mut self) -> Option<String> {
         let open = self.block.take()?;
         Some(match open.row {
-            Some(row) => PartLine::Row(row.text(open.block, open.followed, &open.largest)),
+            Some(row) => row.text(open.block, open.followed, &open.largest),
             None => {
                 let Block { program, number } = open.block;
-                PartLine::Remark(format!("# program {program}, block {number}: {}", open.lacks))
+                format!("# program {program}, block {number}: {}", open.lacks)
             }
         })
     }
 
     /// Whether X and Y go on after they have stood.
     fn leaves(&mut self, plan: &Plan, programmed: &Command) -> bool {
-        let lateral = |i: &usize| {
-            let axis = &plan.machine.axes()[*i];
-            axis.kind == AxisKind::Linear && axis.name.to_string() != "Z"
-        };
-        let axes = 0..plan.machine.axes().len();
         let before = self.stood.replace(*programmed);
+        let axes = plan.machine.axes().iter().enumerate().filter(|(_, axis)| is_lateral(axis));
         let stands = before.is_some_and(|before| {
-            axes.filter(lateral).all(|i| (programmed[i] - before[i]).abs() < STANDS)
+            axes.map(|(i, _)| i).all(|i| (programmed[i] - before[i]).abs() < STANDS)
         });
         let stood = self.still;
         self.still = if stands { stood.saturating_add(1) } else { 0 };
@@ -212,9 +197,8 @@ impl PartOfRun {
         }
     }
 
-    fn put(&mut self, now_s: f64, line: PartLine, run: &mut Run<'_>) {
-        let (PartLine::Row(text) | PartLine::Remark(text)) = line;
-        let put = run.store().part_line(text);
+    fn put(&mut self, now_s: f64, line: String, run: &mut Run<'_>) {
+        let put = run.store().part_line(line);
         if let (Err(why), false) = (put, self.has_gap) {
             self.has_gap = true;
             let name = self.name.clone().unwrap_or_default();

@@ -163,7 +163,8 @@ fn first_heat(plan: &Plan, folder: &Path, now_s: f64) -> Result<Option<HeatOfRun
         return Ok(None);
     }
     let Some(kept) = kept_heat(folder)? else { return Ok(None) };
-    if kept.machine != plan.machine.name() || !kept.heat.fits(&plan.machine) {
+    let heat = ThermalMemory::from(kept.heat);
+    if kept.machine != plan.machine.name() || !heat.fits(&plan.machine) {
         return Err("it is of other scales, or of other places at them".to_owned());
     }
     let Some(since_s) = date_s().checked_sub(kept.date_s) else {
@@ -173,7 +174,7 @@ fn first_heat(plan: &Plan, folder: &Path, now_s: f64) -> Result<Option<HeatOfRun
     };
     #[expect(clippy::cast_precision_loss, reason = "seconds of some years")]
     let since_s = since_s as f64;
-    Ok(Some(kept.heat.shifted(now_s - since_s)))
+    Ok(Some(heat.shifted(now_s - since_s).into()))
 }
 
 /// A control that was opened and compared with the plan.
@@ -352,8 +353,9 @@ fn drive(
 
 /// Heat that cannot be kept is missing in the next run, which then says so.
 fn keep_heat(run: &mut Run<'_>, now_s: f64) {
-    if let Some(heat) = run.correction().memory().filter(HeatOfRun::has_begun) {
-        let _ = run.store().heat(&heat, now_s);
+    let heat = run.correction().memory().filter(|heat| heat.last_s.is_some()).cloned();
+    if let Some(heat) = heat {
+        let _ = run.store().heat(heat.shifted(-now_s).into());
     }
 }
 

@@ -1,7 +1,7 @@
 //! From a plan to a run: the control is opened and compared with the plan before anything is written.
 
 use crate::control::{Control, Identity, LinkFault};
-use crate::file::{FanucPlan, OpcUaPlan, Plan, Source};
+use crate::file::{Bound, FanucPlan, OpcUaPlan, Plan, Source};
 use crate::focas::{Fanuc, FanucSettings, Wire};
 use crate::linuxcnc::{HalPins, Joint, LinuxCnc, LinuxCncSettings, LiveJoint};
 use crate::mock::{FanucMock, MockPlan};
@@ -101,17 +101,11 @@ pub fn linuxcnc_settings(plan: &Plan) -> LinuxCncSettings {
 /// What is missing, with its cure.
 pub fn connect_linuxcnc(plan: &Plan) -> Result<(LinuxCnc<HalPins>, Identity), Diagnostics> {
     let settings = linuxcnc_settings(plan);
-    let refused = |message: String, hint: &str| {
-        let mut problems = Diagnostics::new();
-        let place = Place::whole(&plan.path.display().to_string());
-        problems.error("live-no-link", place, message, hint);
-        problems
-    };
     let hint = "start LinuxCNC with examples/08_live/linuxcnc/trueaxis.hal among its HALFILEs, then this as the same user";
-    let pins =
-        HalPins::open(&settings.layout()).map_err(|fault| refused(fault.to_string(), hint))?;
+    let pins = HalPins::open(&settings.layout())
+        .map_err(|fault| no_link(plan, fault.to_string(), hint))?;
     let mut control = LinuxCnc::new(pins, settings);
-    let identity = control.identity(0.0).map_err(|fault| refused(fault.to_string(), hint))?;
+    let identity = control.identity(0.0).map_err(|fault| no_link(plan, fault.to_string(), hint))?;
     Ok((control, identity))
 }
 
@@ -182,20 +176,9 @@ pub fn compared<N: Nodes>(
     let asked =
         |fault: LinkFault| no_link(plan, format!("the control cannot be asked: {fault}"), hint);
     let found = control.identity(now_s).map_err(asked)?;
-    if let Some(bound) = opcua.bound.as_ref().filter(|bound| !bound.is(&found)) {
-        let Identity { kind, series, version, .. } = &found;
-        let message = format!(
-            "the control at that address is `{kind}` `{series}` `{version}`, the plan is of `{}` `{}` `{}`",
-            bound.kind, bound.series, bound.version
-        );
-        let mut problems = Diagnostics::new();
-        let place = Place::whole(&plan.path.display().to_string());
-        problems.error(
-            "live-other-control",
-            place,
-            message,
-            "correct the address; after an update of the control, its identity",
-        );
+    let mut problems = Diagnostics::new();
+    check_bound(plan, opcua.bound.as_ref(), &found, &mut problems);
+    if problems.has_errors() {
         return Err(problems);
     }
     control.read(now_s).map_err(asked)?;
@@ -226,6 +209,22 @@ fn settings(plan: &Plan, fanuc: &FanucPlan, numbers: Vec<u16>) -> FanucSettings 
     }
 }
 
+/// Whether the control is the one that the plan is of.
+fn check_bound(plan: &Plan, bound: Option<&Bound>, found: &Identity, problems: &mut Diagnostics) {
+    let Some(bound) = bound.filter(|bound| !bound.is(found)) else { return };
+    let Identity { kind, series, version, .. } = found;
+    let message = format!(
+        "the control at that address is {kind} {series} {version}, the plan is of {} {} {}",
+        bound.kind, bound.series, bound.version
+    );
+    problems.error(
+        "live-other-control",
+        Place::whole(&plan.path.display().to_string()),
+        message,
+        "correct the address; after an update of the control, its identity",
+    );
+}
+
 /// The numbers of the axes of the machine in the control; what differs goes to `problems`.
 fn compare(
     plan: &Plan,
@@ -234,19 +233,7 @@ fn compare(
     problems: &mut Diagnostics,
 ) -> Vec<u16> {
     let place = || Place::whole(&plan.path.display().to_string());
-    let Identity { kind, series, version, .. } = found;
-    if let Some(bound) = fanuc.bound.as_ref().filter(|bound| !bound.is(found)) {
-        let message = format!(
-            "the control at that address is {kind} {series} {version}, the plan is of {} {} {}",
-            bound.kind, bound.series, bound.version
-        );
-        problems.error(
-            "live-other-control",
-            place(),
-            message,
-            "correct the address; after an update of the control, its identity",
-        );
-    }
+    check_bound(plan, fanuc.bound.as_ref(), found, problems);
     let mut numbers = Vec::new();
     for (i, axis) in plan.machine.axes().iter().enumerate() {
         let name = axis.name.to_string();

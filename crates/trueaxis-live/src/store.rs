@@ -4,7 +4,9 @@ mod datum;
 mod disk;
 mod heat;
 mod history;
+mod kept;
 mod latest;
+mod lines;
 mod memory;
 mod part;
 
@@ -92,11 +94,11 @@ pub trait Store {
     /// A line of the history, under these headings; a line that the disk is too slow for is lost.
     fn history(&mut self, _heading: &str, _line: String) {}
 
-    /// The heat in the scales, for the next run.
+    /// The heat in the scales, for the next run, on a clock that is 0 now.
     ///
     /// # Errors
     /// What the disk says.
-    fn heat(&mut self, _heat: &HeatOfRun, _now_s: f64) -> Result<(), String> {
+    fn heat(&mut self, _heat: HeatOfRun) -> Result<(), String> {
         Ok(())
     }
 

@@ -13,6 +13,7 @@ use trueaxis::predict::holes::Compensation;
 use trueaxis_live::clock::Clock;
 use trueaxis_live::file::{Plan, read_plan};
 use trueaxis_live::governor::State;
+use trueaxis_live::memory::HeatOfRun;
 
 /// The example with a screw in X that its bearing at 0 heats, standing at X = 3500 mm, two cycles a second.
 fn heated() -> Plan {
@@ -83,10 +84,10 @@ fn law_the_history_of_a_heated_scale_is_followed() {
     assert!((due - cold).abs() > 10.0, "{due} {cold}");
 
     // The next run, 5 min later, goes on with it; without it nothing is known.
-    let heat = rig.run.correction().memory().expect("heat");
+    let heat = HeatOfRun::from(rig.run.correction().memory().expect("heat").clone());
     let text = serde_json::to_string(&heat).expect("a text");
-    let heat = serde_json::from_str(&text).expect("the same");
-    assert_eq!(rig.run.correction().memory().as_ref(), Some(&heat));
+    let again: HeatOfRun = serde_json::from_str(&text).expect("a memory");
+    assert_eq!(again, heat);
     let (clock, mock, owned) = (rig.clock.clone(), rig.mock.clone(), rig.run.correction().owned());
     drop(rig);
     clock.wait_until(clock.now_s() + 300.0);

@@ -2,6 +2,7 @@
 
 use super::axes::AxisPlan;
 use super::control::{Bound, check_commissioned, read_identity};
+use super::sources::read_password;
 use super::{time, word};
 use crate::control::Mode;
 use crate::opcua::NodeNames;
@@ -145,15 +146,7 @@ fn read_login(section: &Section<'_>, folder: &Path) -> Option<Option<(String, St
     let Some(user) = section.text("user").map(str::to_owned) else { return Some(None) };
     let hint = "password_file = \"opcua.secret\": a file with the password in one line";
     let item = section.require("password_file", hint)?;
-    let name = item.text()?;
-    let read = section.files().read(&folder.join(name));
-    let text = read.ok().and_then(|bytes| String::from_utf8(bytes).ok());
-    let Some(text) = text else {
-        let message = format!("`{name}` cannot be read");
-        item.error("unreadable-file", message, "a file with the password in one line");
-        return None;
-    };
-    Some(Some((user, text.trim_end().to_owned())))
+    Some(Some((user, read_password(section, &item, folder)?)))
 }
 
 /// Those of SINUMERIK's operating mode.

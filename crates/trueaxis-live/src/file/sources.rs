@@ -34,6 +34,22 @@ fn pointer(section: &Section<'_>, key: &str) -> Result<Option<String>, ()> {
     }
 }
 
+/// The password in a file: it does not belong into a plan, which is copied and shown.
+pub(super) fn read_password(
+    section: &Section<'_>,
+    item: &Item<'_>,
+    folder: &Path,
+) -> Option<String> {
+    let name = item.text()?;
+    let read = section.files().read(&folder.join(name));
+    let text = read.ok().and_then(|bytes| String::from_utf8(bytes).ok());
+    if text.is_none() {
+        let message = format!("`{name}` cannot be read");
+        item.error("unreadable-file", message, "a file with the password in one line");
+    }
+    text.map(|text| text.trim_end().to_owned())
+}
+
 pub(super) fn read_mqtt(
     section: &Section<'_>,
     item: &Item<'_>,
@@ -49,21 +65,9 @@ pub(super) fn read_mqtt(
     }
     let (value, time) = (pointer(section, "value"), pointer(section, "time"));
     let user = section.text("user").map(str::to_owned);
-    // A password does not belong into a plan, which is copied and shown.
     let password = match section.get("password_file") {
         None => Some(None),
-        Some(item) => item.text().and_then(|name| {
-            let read = section.files().read(&folder.join(name));
-            let text = read.ok().and_then(|bytes| String::from_utf8(bytes).ok());
-            if text.is_none() {
-                item.error(
-                    "unreadable-file",
-                    format!("`{name}` cannot be read"),
-                    "a file with the password in one line",
-                );
-            }
-            text.map(|text| Some(text.trim_end().to_owned()))
-        }),
+        Some(item) => read_password(section, &item, folder).map(Some),
     };
     let password = password?;
     let login = match (user, password) {

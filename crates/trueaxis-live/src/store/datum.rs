@@ -1,5 +1,6 @@
 //! `datum.json`: the zero of the part over restarts; and the file by which another process asks for one.
 
+use super::kept::kept;
 use crate::datum::{Datum, DatumOrder};
 use serde::{Deserialize, Serialize};
 use std::fs;
@@ -26,11 +27,7 @@ pub struct KeptDatum {
 /// # Errors
 /// A file that cannot be read.
 pub fn kept_datum(folder: &Path) -> Result<Option<KeptDatum>, String> {
-    match fs::read_to_string(folder.join(KEPT)) {
-        Ok(text) => serde_json::from_str(&text).map(Some).map_err(|error| error.to_string()),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(error.to_string()),
-    }
+    kept(folder, KEPT)
 }
 
 /// Keeps a zero, or removes it.

@@ -6,9 +6,10 @@
 
 use super::datum::{KeptDatum, asked, keep};
 use super::heat::{KEPT, KeptHeat};
-use super::history::History;
+use super::history::history_file;
 use super::latest::Latest;
-use super::part::{PartFile, part_now};
+use super::lines::Lines;
+use super::part::{part_file, part_now};
 use super::{Event, Owner, Store};
 use crate::clock::date_s;
 use crate::control::Identity;
@@ -53,8 +54,8 @@ pub struct DiskStore {
     state: Latest,
     metrics: Latest,
     heat: Latest,
-    history: Option<History>,
-    part: Option<PartFile>,
+    history: Option<Lines>,
+    part: Option<Lines>,
     /// The plan that a zero of the part belongs to.
     plan_hash: String,
     /// Held as long as the run lasts.
@@ -276,16 +277,12 @@ impl Store for DiskStore {
     }
 
     fn history(&mut self, heading: &str, line: String) {
-        let new = || History::of(self.folder.clone(), heading.to_owned());
+        let new = || history_file(self.folder.clone(), heading.to_owned());
         self.history.get_or_insert_with(new).add(line);
     }
 
-    fn heat(&mut self, heat: &HeatOfRun, now_s: f64) -> Result<(), String> {
-        let kept = KeptHeat {
-            machine: self.owner.machine.clone(),
-            date_s: date_s(),
-            heat: heat.clone().shifted(-now_s),
-        };
+    fn heat(&mut self, heat: HeatOfRun) -> Result<(), String> {
+        let kept = KeptHeat { machine: self.owner.machine.clone(), date_s: date_s(), heat };
         self.heat.put(serde_json::to_string(&kept).map_err(|error| error.to_string())?)
     }
 
@@ -295,12 +292,15 @@ impl Store for DiskStore {
 
     fn open_part(&mut self, part: Option<&str>, heading: &str) -> Result<(), String> {
         self.part = None;
-        self.part = part.map(|name| PartFile::open(&self.folder, name, heading)).transpose()?;
+        self.part = part.map(|name| part_file(&self.folder, name, heading)).transpose()?;
         Ok(())
     }
 
     fn part_line(&mut self, line: String) -> Result<(), String> {
-        self.part.as_ref().map_or(Ok(()), |part| part.add(line))
+        match self.part.as_ref().is_none_or(|part| part.add(line)) {
+            true => Ok(()),
+            false => Err("the disk took no line more, or the record is full".to_owned()),
+        }
     }
 
     fn is_stop_asked(&mut self) -> bool {

@@ -1,9 +1,8 @@
 //! `heat.json`: the heat in the scales over restarts.
 
+use super::kept::kept;
 use crate::memory::HeatOfRun;
 use serde::{Deserialize, Serialize};
-use std::fs;
-use std::io;
 use std::path::Path;
 
 pub(super) const KEPT: &str = "heat.json";
@@ -24,9 +23,5 @@ pub struct KeptHeat {
 /// # Errors
 /// A file that cannot be read.
 pub fn kept_heat(folder: &Path) -> Result<Option<KeptHeat>, String> {
-    match fs::read_to_string(folder.join(KEPT)) {
-        Ok(text) => serde_json::from_str(&text).map(Some).map_err(|error| error.to_string()),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(error.to_string()),
-    }
+    kept(folder, KEPT)
 }

@@ -1,11 +1,11 @@
 //! `history.csv`: lines over days in constant space. A full file becomes `history-before.csv`, and so does one with other
 //! columns. Written beside the loop, which must not wait for a disk.
 
+use super::lines::Lines;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
-use std::thread::JoinHandle;
+use std::sync::mpsc::Receiver;
 
 const NOW: &str = "history.csv";
 const BEFORE: &str = "history-before.csv";
@@ -14,37 +14,9 @@ const MOST_LINES: usize = 8640;
 /// Lines that wait while the disk is busy; further ones are lost.
 const MOST_WAITING: usize = 16;
 
-/// The file of a run; the last line is in it once this is dropped.
-#[derive(Debug)]
-pub(super) struct History {
-    lines: Option<SyncSender<String>>,
-    writer: Option<JoinHandle<()>>,
-}
-
-impl History {
-    pub fn of(folder: PathBuf, heading: String) -> Self {
-        let (lines, waiting) = sync_channel(MOST_WAITING);
-        let writer = std::thread::spawn(move || {
-            // A history that cannot be written does not end a run; readers see that it ends.
-            let _ = write_all(&folder, &heading, &waiting);
-        });
-        Self { lines: Some(lines), writer: Some(writer) }
-    }
-
-    /// One line more; whether it was taken.
-    pub fn add(&self, line: String) -> bool {
-        self.lines.as_ref().is_some_and(|lines| lines.try_send(line).is_ok())
-    }
-}
-
-impl Drop for History {
-    fn drop(&mut self) {
-        self.lines = None;
-        if let Some(writer) = self.writer.take() {
-            // A writer that has panicked has nothing more to say.
-            let _ = writer.join();
-        }
-    }
+/// The file of a run.
+pub(super) fn history_file(folder: PathBuf, heading: String) -> Lines {
+    Lines::by(move |waiting| write_all(&folder, &heading, waiting), MOST_WAITING)
 }
 
 fn write_all(folder: &Path, heading: &str, waiting: &Receiver<String>) -> io::Result<()> {
@@ -108,7 +80,7 @@ mod tests {
     }
 
     fn add(folder: &Path, heading: &str, lines: std::ops::Range<usize>) {
-        let history = History::of(folder.to_owned(), heading.to_owned());
+        let history = history_file(folder.to_owned(), heading.to_owned());
         for i in lines {
             while !history.add(i.to_string()) {
                 std::thread::yield_now();

@@ -1,12 +1,12 @@
 //! `parts/NAME.csv`: the record of each part; and the file `part` by which a person says which one is being made.
 
+use super::lines::Lines;
 use crate::file::Plan;
 use crate::part::part_heading;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
-use std::thread::JoinHandle;
+use std::sync::mpsc::Receiver;
 
 const PARTS: &str = "parts";
 /// Its text is the name of the part that is made.
@@ -91,62 +91,25 @@ pub fn parts(folder: &Path) -> Vec<String> {
     names
 }
 
-/// The record that a run fills; the last line is in it once this is dropped. Written beside the loop, which must not wait for
-/// a disk.
-#[derive(Debug)]
-pub(super) struct PartFile {
-    lines: Option<SyncSender<String>>,
-    writer: Option<JoinHandle<()>>,
-}
-
-impl PartFile {
-    /// Goes on with a record that was begun for these columns.
-    ///
-    /// # Errors
-    /// Why it cannot be filled.
-    pub fn open(folder: &Path, name: &str, heading: &str) -> Result<Self, String> {
-        let path = part_path(folder, name);
-        let text = fs::read_to_string(&path).map_err(|error| error.to_string())?;
-        let columns = |text: &str| text.lines().find(|l| !l.starts_with('#')).map(str::to_owned);
-        if columns(&text) != columns(heading) {
-            return Err("it was begun for other axes or sensors".to_owned());
-        }
-        let opened = OpenOptions::new().append(true).open(&path);
-        let mut file = opened.map_err(|error| error.to_string())?;
-        if !text.ends_with('\n') {
-            // A run that was killed leaves a line that is cut: a remark is no row.
-            file.write_all(b"\n").map_err(|error| error.to_string())?;
-        }
-        let room = MOST_LINES.saturating_sub(text.lines().count());
-        let (lines, waiting) = sync_channel(MOST_WAITING);
-        let writer = std::thread::spawn(move || {
-            // The next line that is given says that the thread has ended.
-            let _ = write_all(file, room, &waiting);
-        });
-        Ok(Self { lines: Some(lines), writer: Some(writer) })
+/// The record that a run fills: it goes on with one that was begun for these columns.
+///
+/// # Errors
+/// Why it cannot be filled.
+pub(super) fn part_file(folder: &Path, name: &str, heading: &str) -> Result<Lines, String> {
+    let path = part_path(folder, name);
+    let text = fs::read_to_string(&path).map_err(|error| error.to_string())?;
+    let columns = |text: &str| text.lines().find(|l| !l.starts_with('#')).map(str::to_owned);
+    if columns(&text) != columns(heading) {
+        return Err("it was begun for other axes or sensors".to_owned());
     }
-
-    /// One line more.
-    ///
-    /// # Errors
-    /// It is lost.
-    pub fn add(&self, line: String) -> Result<(), String> {
-        let sent = self.lines.as_ref().map(|lines| lines.try_send(line).is_ok());
-        match sent {
-            Some(true) => Ok(()),
-            _ => Err("the disk took no line more, or the record is full".to_owned()),
-        }
+    let opened = OpenOptions::new().append(true).open(&path);
+    let mut file = opened.map_err(|error| error.to_string())?;
+    if !text.ends_with('\n') {
+        // A run that was killed leaves a line that is cut.
+        file.write_all(b"\n").map_err(|error| error.to_string())?;
     }
-}
-
-impl Drop for PartFile {
-    fn drop(&mut self) {
-        self.lines = None;
-        if let Some(writer) = self.writer.take() {
-            // A writer that has panicked has nothing more to say.
-            let _ = writer.join();
-        }
-    }
+    let room = MOST_LINES.saturating_sub(text.lines().count());
+    Ok(Lines::by(move |waiting| write_all(file, room, waiting), MOST_WAITING))
 }
 
 fn write_all(mut file: File, room: usize, waiting: &Receiver<String>) -> io::Result<()> {

@@ -9,9 +9,9 @@
 use super::holes::HoleStudy;
 use std::path::Path;
 use trueaxis_geometry::Vec3;
-use trueaxis_input::{CsvTable, Diagnostics, Dimension, Place, Section, Unit};
+use trueaxis_input::{CsvColumn, CsvTable, Diagnostics, Dimension, Place, Section, Unit};
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{AxisKind, Command};
+use trueaxis_machine::axis::{Axis, AxisKind, Command};
 use trueaxis_machine::errors::ErrorValues;
 use trueaxis_machine::heat::Conditions;
 
@@ -86,7 +86,8 @@ impl ActedRecord {
     }
 }
 
-fn is_lateral(axis: &trueaxis_machine::axis::Axis) -> bool {
+/// Whether a hole is at a place of this axis: all linear ones but that along which it is drilled.
+pub fn is_lateral(axis: &Axis) -> bool {
     axis.kind == AxisKind::Linear && axis.name.to_string() != "Z"
 }
 
@@ -96,7 +97,7 @@ fn column(
     (name, dimension): (&str, Dimension),
     problems: &mut Diagnostics,
 ) -> Option<Vec<f64>> {
-    let of = |c: &&trueaxis_input::CsvColumn| {
+    let of = |c: &&CsvColumn| {
         let (stem, unit) = c.name.rsplit_once('_').unwrap_or((&c.name, ""));
         stem == name && Unit::find(unit, dimension).is_ok()
     };
@@ -153,31 +154,28 @@ fn read(table: &CsvTable, machine: &Machine, problems: &mut Diagnostics) -> Opti
         return None;
     }
     let flag = |name: &str, row: usize| table.column(name).is_some_and(|c| c.values[row] != 0.0);
-    let sensors: Vec<(String, Vec<f64>)> = table
-        .columns
-        .iter()
-        .filter_map(|c| Some((c.name.strip_suffix("_degC")?.to_owned(), c.values.clone())))
-        .collect();
-    let rows = times_s.iter().enumerate().map(|(row, time_s)| {
-        let of = |columns: &[Vec<f64>]| {
-            let mut command = Command::default();
-            command.iter_mut().zip(columns).for_each(|(to, column)| *to = column[row]);
-            command
-        };
-        let acted: Vec<Vec<f64>> =
-            by.iter().map(|c| c.clone().unwrap_or_else(|| vec![0.0; row + 1])).collect();
-        ActedRow {
-            time_s: *time_s,
-            at: of(&at),
-            by: of(&acted),
-            tcp: flag("tcp", row),
-            followed: flag("followed", row),
-            known: flag("known", row),
-            conditions: sensors.iter().fold(Conditions::default(), |found, (sensor, celsius)| {
-                found.with_reading(sensor, celsius[row])
-            }),
-            place: table.row_place(row),
+    let readings = table.columns.iter().filter_map(|c| Some((c.name.strip_suffix("_degC")?, c)));
+    let sensors: Vec<(&str, &CsvColumn)> = readings.collect();
+    let command = |columns: &[Option<&Vec<f64>>], row: usize| {
+        let mut command = Command::default();
+        for (to, column) in command.iter_mut().zip(columns) {
+            *to = column.map_or(0.0, |values| values[row]);
         }
+        command
+    };
+    let at: Vec<_> = at.iter().map(Some).collect();
+    let by: Vec<_> = by.iter().map(Option::as_ref).collect();
+    let rows = times_s.iter().enumerate().map(|(row, time_s)| ActedRow {
+        time_s: *time_s,
+        at: command(&at, row),
+        by: command(&by, row),
+        tcp: flag("tcp", row),
+        followed: flag("followed", row),
+        known: flag("known", row),
+        conditions: sensors.iter().fold(Conditions::default(), |found, (sensor, celsius)| {
+            found.with_reading(sensor, celsius.values[row])
+        }),
+        place: table.row_place(row),
     });
     Some(ActedRecord { file: table.file.clone(), rows: rows.collect() })
 }
