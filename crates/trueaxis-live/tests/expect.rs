@@ -93,6 +93,31 @@ fn law_the_price_of_a_sensor_does_not_depend_on_the_rows() {
     assert!(a.1.losses[0].after_10_min[0] < a.1.losses[0].after_1_h[0]);
 }
 
+/// A spindle whose growth outweighs all else: by hand U = 2 · 5 µm/K · 10 K along it.
+#[test]
+fn law_the_uncertainty_is_that_of_the_coefficient() {
+    let path = root().join("examples/08_live/linuxcnc/xyzac-live.toml");
+    let text = std::fs::read_to_string(&path).expect("the example");
+    let machine = path.with_file_name("xyzac.toml");
+    let u_um = |coefficient: &str| {
+        let changed = std::fs::read_to_string(&machine).expect("the machine");
+        assert!(changed.contains("\"-1.5 um/K\""));
+        let changed = changed.replace("-1.5 um/K", coefficient);
+        let files = disk().with_texts([(path.clone(), text.clone()), (machine.clone(), changed)]);
+        let (plan, problems) = read_plan(&files, &path);
+        let plan = plan.unwrap_or_else(|| panic!("{:?}", problems.sorted()));
+        // At the end of a long day: all of the 10 K.
+        let text = "time_s,spindle_degC\n0,30\n600,30\n";
+        let log = TemperatureLog::parse("day.csv", text, &mut Diagnostics::new()).expect("a log");
+        poses(&plan, &log).0.tip_expanded_uncertainty_um
+    };
+    assert_eq!(u_um("-100 um/K"), None);
+    let u = u_um("-100 ± 5 um/K").expect("an uncertainty");
+    assert!((92.0..=100.0).contains(&u), "{u}");
+    let twice = u_um("-100 ± 10 um/K").expect("an uncertainty");
+    assert!((twice - 2.0 * u).abs() < 1e-6 * u, "{u} {twice}");
+}
+
 /// A log of many rows is thinned; its sample is a row old all the same, and ten minutes and an hour are not those of the thinned rows.
 #[test]
 fn law_a_forecast_does_not_depend_on_how_many_rows_a_log_has() {

@@ -79,6 +79,13 @@ fn every(step_s: f64, until_s: f64) -> Vec<f64> {
     (0..=count).map(|i| f64::from(i) * step_s).collect()
 }
 
+/// Uneven rows; the first and the last stay.
+fn jittered(times_s: Vec<f64>) -> Vec<f64> {
+    let end_s = times_s.last().copied().unwrap_or(0.0);
+    let moved = |t: f64| if t > 0.0 && t < end_s { t + 20.0 * (t * 0.37).sin() } else { t };
+    times_s.into_iter().map(moved).collect()
+}
+
 fn apart(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
@@ -94,8 +101,8 @@ proptest! {
         hours in 2.0..30.0_f64,
     ) {
         let (machine, shifts) = (screw(""), (heat_k, break_s));
-        let times_s = every(60.0, (hours * 60.0).round() * 60.0);
-        let end_s = *times_s.last().unwrap();
+        let end_s = (hours * 60.0).round() * 60.0;
+        let times_s = jittered(every(60.0, end_s));
         let mut text = "time_s,fixed_degC,floating_degC,far_degC\n".to_owned();
         for t in &times_s {
             let [a, b, c] = ["fixed", "floating", "far"].map(|s| celsius(s, *t, shifts));
@@ -123,12 +130,10 @@ fn law_the_spacing_of_the_rows_matters_by_a_thousandth_per_minute() {
     };
     let due = of(&every(10.0, end_s));
     let largest = due.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
-    let jitter = |t: &f64| if *t > 0.0 && *t < end_s { t + 7.0 * (t * 0.37).sin() } else { *t };
-    let jittered: Vec<f64> = every(60.0, end_s).iter().map(jitter).collect();
     for (step_s, times_s) in [20.0, 60.0, 120.0, 300.0]
         .map(|s| (s, every(s, end_s)))
         .into_iter()
-        .chain([(100.0, jittered)])
+        .chain([(100.0, jittered(every(60.0, end_s)))])
     {
         let apart = apart(&of(&times_s), &due);
         assert!(apart < 1.1e-3 * largest * step_s / 60.0, "{step_s} s: {apart} of {largest}");
