@@ -1,5 +1,6 @@
 """The kinds of input files, with the command that reads each. `05/x` is `examples/05_identify/x`, `i5/` one of machines/."""
 
+import math
 import re
 import struct
 import subprocess
@@ -113,6 +114,7 @@ KINDS = [
     ("import, Renishaw", "made/laser.rtl", "evaluate iso230-2 made/laser.rtl"),
     ("plan of a live run", "08/gantry-mock.toml", "live expect 08/gantry-mock.toml --temperature-log 03/torque-arm-hall.csv"),
     ("plan of a live run, LinuxCNC", "08/linuxcnc/xyzac-live.toml", "live status 08/linuxcnc/xyzac-live.toml"),
+    ("record of a part", "made/arm.csv", "predict made/arm.toml"),
     ("log of a live day", "03/torque-arm-hall.csv", "live expect 08/gantry-mock.toml --temperature-log 03/torque-arm-hall.csv"),
 ]
 
@@ -146,6 +148,16 @@ def _box_stl():
     corners = [(x, y, z) for x in (0, 20) for y in (0, 20) for z in (0, 10)]
     quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
     return [(corners[a], corners[b], corners[c]) for q in quads for a, b, c in (q[:3], (q[0], q[2], q[3]))]
+
+
+def _arm():
+    """What acted at the 32 holes of the torque arm."""
+    rows = ["time_s,block,followed,known,tcp,X_mm,Y_mm,Z_mm,X_acted_um,Y_acted_um,scale_x_degC,scale_y_degC,scale_z_degC,workpiece_degC"]
+    for hole in range(32):
+        turn = 2.0 * math.pi * hole / 32
+        x, y = 2300.0 + 1000.0 * math.cos(turn), 1150.0 + 1000.0 * math.sin(turn)
+        rows.append(f"{60 * hole},{10 * hole},1,1,0,{x:.4f},{y:.4f},-30,{0.0155 * x:.1f},{0.044 * y:.1f},30.5,31.2,30.8,30.8")
+    return "\n".join(rows) + "\n"
 
 
 def prepare(tree, program):
@@ -210,6 +222,8 @@ def prepare(tree, program):
     study = read("03/nas979-on-xkas2525.toml").replace("../../", "../").replace("samples = 10000", "samples = 0")
     write("part-study.toml", study)
     write("part.toml", read("07/nas979-points.toml"), ("../03_predict/nas979-on-xkas2525.toml", "part-study.toml"), ("nas979-points.csv", "part-points.csv"))
+    write("arm.toml", read("03/torque-arm.toml").split("[temperature]")[0], ("../../", "../"), ('applied = "comprehensive"', 'acted = "arm.csv"'))
+    write("arm.csv", _arm())
     path = read("06/bangle-adapt.cls").splitlines()
     write("adapt.cls", "\n".join(path[:200] + path[-3:]) + "\n")
     write("blank.csv", every("06/bangle-measured.csv", 2))

@@ -63,9 +63,11 @@ SENSOR = """
 [sensor.{name}]
 range = ["10 degC", "45 degC"]
 rate_k_per_min = 5
-stale = "30 s"
-source = {{ constant = "{celsius} degC" }}
+stale = "{stale}"
+source = {source}
 """
+CONSTANT = '{{ constant = "{celsius} degC" }}'
+NODE = '{{ opc_ua = "opc.tcp://127.0.0.1:{port}", node = "ns={space};s=hall", security = "none", scale = 0.1, period = "500 ms"{more} }}'
 
 
 class Control:
@@ -84,10 +86,15 @@ class Control:
             sys.exit(f"the server did not start: {folder / 'server.log'}")
         self.space = words[1]
 
-    def plan(self, security, login=""):
+    def plan(self, security, login="", node=None):
+        """With a node, the scale of Y is measured by the server; `node` is what else is said of it."""
         text = PLAN.format(root=ROOT, port=self.port, security=security, login=login, space=self.space)
         text += "".join(AXIS.format(axis=axis) for axis in "XY")
-        text += "".join(SENSOR.format(name=name, celsius=30.5 if name != "scale_y" else 31.2) for name in ["scale_x", "scale_y", "workpiece"])
+        for name in ["scale_x", "scale_y", "workpiece"]:
+            source, stale = CONSTANT.format(celsius=30.5 if name != "scale_y" else 31.2), "30 s"
+            if name == "scale_y" and node is not None:
+                source, stale = NODE.format(port=self.port, space=self.space, more=node), "3 s"
+            text += SENSOR.format(name=name, source=source, stale=stale)
         file = self.folder / "live.toml"
         file.write_text(text)
         return file
@@ -172,6 +179,18 @@ def main():
     text, _ = run.communicate(timeout=60)
     control.end()
     check("an offset that may not be written is named", "offsetY" in text or "refuses what is written" in text, "" if "Hold" in text else text)
+
+    control = Control(python, runs / "sensor")
+    whole(control, control.plan("none", node=""), "a node as a sensor")
+    for fault, more, due in [("frozen", "", "is older than"), ("bad", "", "BadSensorFailure"), ("frozen", ', time = "read"', None)]:
+        name = f"a sensor that is {fault}{' of a server that renews no times' if more else ''}"
+        control = Control(python, runs / f"sensor-{fault}{'-read' if more else ''}", "--sensor", fault)
+        run = live(trueaxis, control.plan("none", node=more), 14)
+        text, _ = run.communicate(timeout=60)
+        seen = control.end()
+        off_um = [1e3 * abs(most - due_mm) for most, due_mm in zip(seen["largest_mm"], DUE_MM)]
+        held = "Hold:" in text and due is not None and due in text
+        check(f"{name}: {'holds what acts' if due else 'follows'}", (held if due else "Hold:" not in text) and max(off_um) < 1.6, "" if held == bool(due) else text)
 
     os.sync()
     print(f"{len(failed)} checks failed" if failed else "all checks passed")

@@ -20,6 +20,8 @@ from cryptography.x509.oid import ExtendedKeyUsageOID
 
 TIMEOUT_S = 1.0
 RAMP_MM_PER_S = 0.2
+# The temperature is sound for so long.
+SENSOR_S = 6.0
 NUMBERS = {"X": 0.0, "Y": 0.0, "Z": 0.0, "offsetX": 0.0, "offsetY": 0.0}
 FLAGS = {"referenced": True, "running": True, "inhibit": False, "emergency": False, "tripped": False, "hold": False}
 
@@ -33,12 +35,24 @@ class Users(UserManager):
         return None
 
 
+async def measure(node, fault):
+    """Tenths of a degree; the time of the source is that of the writing."""
+    if fault == "frozen":
+        return
+    if fault == "bad":
+        await node.write_value(ua.DataValue(ua.Variant(312, ua.VariantType.Int16), ua.StatusCode(ua.StatusCodes.BadSensorFailure),
+                                            SourceTimestamp=datetime.datetime.now(datetime.timezone.utc)))
+    else:
+        await node.write_value(312, ua.VariantType.Int16)
+
+
 async def main():
     arguments = argparse.ArgumentParser()
     arguments.add_argument("port", type=int)
     arguments.add_argument("folder", type=pathlib.Path)
     arguments.add_argument("--at", nargs=3, type=float, default=[3500.0, 2300.0, 400.0])
     arguments.add_argument("--deny")
+    arguments.add_argument("--sensor", choices=["frozen", "bad"], help="what becomes of the temperature after some seconds")
     options = arguments.parse_args()
     host, uri = "127.0.0.1", "urn:trueaxis:test:control"
     key, certificate = options.folder / "server.pem", options.folder / "server.der"
@@ -67,16 +81,21 @@ async def main():
         await add(name, value, ua.VariantType.Boolean)
     await add("mode", 2, ua.VariantType.Int16)
     await add("beat", 0, ua.VariantType.Byte)
+    await add("hall", 312, ua.VariantType.Int16)
     seen = dict(offsets=[], largest_step_mm=0.0, beats=0, tripped=0, largest_mm=[0.0, 0.0])
     ended = asyncio.Event()
     asyncio.get_running_loop().add_signal_handler(signal.SIGTERM, ended.set)
     async with server:
         print(f"ready {space}", flush=True)
         last, beat, beat_at, before = [0.0, 0.0], 0, None, time.monotonic()
+        begun, measured = before, 0.0
         while not ended.is_set():
             await asyncio.sleep(0.01)
             now = time.monotonic()
             dt, before = now - before, now
+            if now - measured > 0.5:
+                measured = now
+                await measure(nodes["hall"], options.sensor if now - begun > SENSOR_S else None)
             offsets = [await nodes[f"offset{axis}"].get_value() for axis in "XY"]
             new = await nodes["beat"].get_value()
             if new != beat:

@@ -2,21 +2,14 @@
 
 mod library;
 
-use library::{bare, disk, motions, read, within};
+use library::{bare, motions, poses, probe_campaign, read, within};
 use rayon::prelude::*;
-use std::path::PathBuf;
 use trueaxis_calibrate::identify::errors::{Identification, identify};
 use trueaxis_calibrate::identify::records::{Options, Records};
-use trueaxis_geometry::Vec3;
 use trueaxis_geometry::statistics::{self, SplitMix64};
 use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{AxisKind, Command, Travel};
-use trueaxis_machine::twist::Reference;
-use trueaxis_measure::instruments::Reading;
-use trueaxis_measure::measure::instrument::{Instrument, SetupUnknown};
-use trueaxis_measure::measure::{Campaign, Kind, Readings};
-use trueaxis_measure::unknowns::minimal::minimal_location_errors;
+use trueaxis_machine::axis::AxisKind;
 use trueaxis_measure::unknowns::term::Term;
 
 /// What is in the machine and not among the unknowns.
@@ -25,66 +18,6 @@ enum Unlisted {
     Nothing,
     Linear,
     Noise,
-}
-
-fn campaign(machine: Machine) -> Campaign {
-    let kind = Kind::ProbeBall;
-    let free = |error| SetupUnknown { name: kind.unknown_name(error), error, prior_u: None };
-    let probe = Instrument {
-        name: "probe".to_owned(),
-        kind,
-        sight: kind.sight(),
-        reference: Reference::Workpiece,
-        tool_point_mm: machine.tip_mm(),
-        reference_point_mm: Vec3::new(40.0, -70.0, 90.0),
-        direction: Vec3::x(),
-        length_mm: 0.0,
-        noise: [1e-3; 3],
-        unknowns: kind.usual_unknowns().into_iter().map(free).collect(),
-        material: None,
-        reads: Default::default(),
-        drift: Default::default(),
-        assumed: Default::default(),
-    };
-    Campaign {
-        conditions: None,
-        files: disk(),
-        name: "R-test".to_owned(),
-        path: PathBuf::from("campaign.toml"),
-        machine_path: PathBuf::from("machine.toml"),
-        terms: minimal_location_errors(&machine),
-        instruments: vec![probe],
-        tables: vec![Vec::new()],
-        stages: Default::default(),
-        limits: Default::default(),
-        machine,
-    }
-}
-
-fn poses(random: &mut SplitMix64, machine: &Machine, count: u32) -> Readings {
-    let mut poses = Readings::default();
-    for group in 0..count {
-        let mut command = Command::default();
-        for (q, axis) in command.iter_mut().zip(machine.axes()) {
-            *q = match (axis.travel, axis.kind) {
-                (Travel::Between(from, to), _) => from + (to - from) * random.unit(),
-                (_, AxisKind::Linear) => within(random, 400.0),
-                (_, AxisKind::Rotary) => within(random, 1.6),
-            };
-        }
-        poses.push(Reading {
-            command,
-            approach: Default::default(),
-            instrument: 0,
-            direction: Vec3::x(),
-            value: [0.0; 3],
-            group,
-            time_s: 300.0 * f64::from(group),
-            motion: Default::default(),
-            line: group + 2,
-        });
-    }
-    poses
 }
 
 /// Errors that are not listed, with their sizes.
@@ -101,7 +34,7 @@ fn hidden(machine: &Machine, what: Unlisted) -> Vec<(Term, f64)> {
 /// A virtual campaign and the true values of its machine errors.
 fn run(machine: &Machine, count: u32, what: Unlisted, seed: u64) -> (Identification, Vec<f64>) {
     let mut random = SplitMix64::new(seed);
-    let campaign = campaign(machine.clone());
+    let campaign = probe_campaign(machine.clone());
     let poses = poses(&mut random, machine, count);
     let hidden = hidden(machine, what);
     let more: Vec<Term> = hidden.iter().map(|(t, _)| *t).collect();

@@ -10,7 +10,7 @@ mod sources;
 pub use axes::{AxisPlan, Commissioned, RIGHT, WRONG};
 pub use control::{Bound, ControlPlan, FanucPlan, LinuxCncPlan};
 pub use datum::PlannedDatum;
-pub use opcua::{OpcUaPlan, Security};
+pub use opcua::{OpcUaPlan, OpcUaServer, Security};
 pub use sensors::{SensorPlan, Source};
 
 use crate::control::Mode;

@@ -8,6 +8,7 @@ mod inbox;
 mod log;
 pub mod modbus;
 pub mod mqtt;
+pub mod opcua;
 mod watch;
 
 pub use log::LogSensor;

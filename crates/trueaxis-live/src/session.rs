@@ -14,7 +14,9 @@ use crate::metrics::prometheus;
 use crate::mock::MockServer;
 use crate::part::PartOfRun;
 use crate::run::{Cycle, Run, Wish};
-use crate::start::{connect, connect_linuxcnc, connect_opcua, mock_of, owner, sensors_of};
+use crate::start::{
+    check_built, connect, connect_linuxcnc, connect_opcua, mock_of, owner, sensors_of,
+};
 use crate::status::{LiveState, folder_of, is_lagging, live_state, status_json};
 use crate::store::{DiskStore, StoreFault, kept_datum, kept_heat};
 use std::io::{BufRead, BufReader};
@@ -190,6 +192,7 @@ pub(crate) fn open(
     mock: Option<&MockServer>,
     clock: &RealClock,
 ) -> Result<Opened, Diagnostics> {
+    check_built(plan)?;
     match &plan.control {
         ControlPlan::Fanuc(fanuc) => {
             let own = mock.map(|server| server.address().to_string());

@@ -138,7 +138,7 @@ pub fn connect_opcua(
 ) -> Result<(Box<dyn Control>, Identity), Diagnostics> {
     #[cfg(feature = "opcua")]
     {
-        let client = crate::opcua::Client::of(opcua).map_err(|error| {
+        let client = crate::opcua::Client::of(&opcua.server).map_err(|error| {
             let message = format!("the connection cannot be opened: {error}");
             no_link(plan, message, "let the program have one more thread")
         })?;
@@ -149,8 +149,7 @@ pub fn connect_opcua(
     #[cfg(not(feature = "opcua"))]
     {
         let _ = (opcua, now_s);
-        let message = "this program was built without OPC UA".to_owned();
-        Err(no_link(plan, message, "build it with it: cargo build --release --features opcua"))
+        Err(without_opcua(plan))
     }
 }
 
@@ -273,21 +272,61 @@ pub fn owner(plan: &Plan, control: &Identity) -> Owner {
     Owner { machine: plan.machine.name().to_owned(), control: control.clone(), axes }
 }
 
+/// Whether this program has what the plan needs.
+///
+/// # Errors
+/// What it was built without.
+pub fn check_built(plan: &Plan) -> Result<(), Diagnostics> {
+    let asked = plan.sensors.iter().any(|sensor| matches!(sensor.source, Source::OpcUa(_)));
+    if asked && cfg!(not(feature = "opcua")) { Err(without_opcua(plan)) } else { Ok(()) }
+}
+
+fn without_opcua(plan: &Plan) -> Diagnostics {
+    let message = "this program was built without OPC UA".to_owned();
+    no_link(plan, message, "build it with it: cargo build --release --features opcua")
+}
+
 /// The sensors of a plan.
 pub fn sensors_of(plan: &Plan) -> Vec<Box<dyn Sensor>> {
-    let sensor = |(i, sensor): (usize, &crate::file::SensorPlan)| -> Box<dyn Sensor> {
-        match &sensor.source {
+    let sensor = |(i, sensor): (usize, &crate::file::SensorPlan)| -> Option<Box<dyn Sensor>> {
+        Some(match &sensor.source {
             Source::Log { log, column, start_s, speed } => {
                 Box::new(LogSensor::new(log.clone(), column, i, *start_s).at_speed(*speed))
             }
             Source::Mqtt(source) => crate::sensor::mqtt::subscribe(source, i),
             Source::Modbus(source) => crate::sensor::modbus::read_register(source, i),
+            Source::OpcUa(_) => return None,
             Source::Constant { celsius } => {
                 Box::new(ConstantSensor { sensor: i, celsius: *celsius, next_s: 0.0 })
             }
-        }
+        })
     };
-    plan.sensors.iter().enumerate().map(sensor).collect()
+    let others = plan.sensors.iter().enumerate().filter_map(sensor);
+    others.chain(opcua_sensors(plan)).collect()
+}
+
+/// All nodes of one server over one session.
+#[cfg(feature = "opcua")]
+fn opcua_sensors(plan: &Plan) -> Vec<Box<dyn Sensor>> {
+    let mut servers: Vec<Vec<(usize, &crate::sensor::opcua::OpcUaSource)>> = Vec::new();
+    for (i, sensor) in plan.sensors.iter().enumerate() {
+        let Source::OpcUa(source) = &sensor.source else { continue };
+        match servers.iter_mut().find(|group| group[0].1.server == source.server) {
+            Some(group) => group.push((i, source)),
+            None => servers.push(vec![(i, source)]),
+        }
+    }
+    // A thread that the system refuses is a sensor without samples, which the governor sees.
+    servers
+        .iter()
+        .flat_map(|group| crate::sensor::opcua::read_nodes(group).unwrap_or_default())
+        .collect()
+}
+
+/// [`check_built`] has refused such a plan.
+#[cfg(not(feature = "opcua"))]
+fn opcua_sensors(_: &Plan) -> Vec<Box<dyn Sensor>> {
+    Vec::new()
 }
 
 /// One value, every second.

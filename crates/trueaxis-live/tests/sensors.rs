@@ -165,6 +165,8 @@ fn plans_name_brokers_and_devices() {
         "{ mqtt = \"10.0.0.1:1883\", topic = \"hall/y\", value = \"/t/c\", time = \"/at\" }",
         "{ modbus = \"10.0.0.2:502\", register = 7, scale = 0.1 }",
         "{ modbus = \"10.0.0.2:502\", unit = 3, table = \"holding\", register = 0, as = \"f32\", offset = -273.15, period = \"500 ms\" }",
+        "{ opc_ua = \"opc.tcp://10.0.0.3:4840\", node = \"ns=2;s=hall.y\", security = \"none\", scale = 0.1 }",
+        "{ opc_ua = \"opc.tcp://plc:4840\", node = \"ns=4;i=7\", security = \"sign-and-encrypt\", time = \"read\", period = \"2 s\" }",
     ] {
         assert!(with(good).is_ok(), "{good}: {:?}", with(good).err());
     }
@@ -180,6 +182,21 @@ fn plans_name_brokers_and_devices() {
         ("{ modbus = \"10.0.0.2:502\", register = 1.5 }", "live-source"),
         ("{ modbus = \"10.0.0.2:502\", register = 1, scale = 0 }", "not-positive"),
         ("{ modbus = \"10.0.0.2:502\", register = 1, as = \"i8\" }", "unknown-word"),
+        ("{ opc_ua = \"10.0.0.3:4840\", node = \"ns=2;s=y\", security = \"none\" }", "bad-address"),
+        (
+            "{ opc_ua = \"opc.tcp://plc:4840\", node = \"hall.y\", security = \"none\" }",
+            "live-node",
+        ),
+        ("{ opc_ua = \"opc.tcp://plc:4840\", security = \"none\" }", "missing-key"),
+        ("{ opc_ua = \"opc.tcp://plc:4840\", node = \"ns=2;s=y\" }", "missing-key"),
+        (
+            "{ opc_ua = \"opc.tcp://plc:4840\", node = \"i=1\", security = \"none\", period = \"2 h\" }",
+            "not-positive",
+        ),
+        (
+            "{ opc_ua = \"opc.tcp://plc:4840\", node = \"i=1\", security = \"none\", time = \"server\" }",
+            "unknown-word",
+        ),
     ] {
         let said = with(bad).err().unwrap_or_default();
         assert!(said.iter().any(|s| s.starts_with(code)), "{bad}: {said:?}");

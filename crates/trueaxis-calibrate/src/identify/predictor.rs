@@ -79,16 +79,22 @@ fn covariance(
     (sums, explanations): (&Sums, &[Sizes]),
     values: &DVector<f64>,
 ) -> Option<DMatrix<f64>> {
-    let least = explanations.iter().map(|e| e.deviance).fold(f64::INFINITY, f64::min);
-    let likelihood = |e: &Sizes| (-0.5 * (e.deviance - least)).exp();
-    let whole: f64 = explanations.iter().map(likelihood).sum();
     let mut covariance = DMatrix::zeros(values.len(), values.len());
-    for explanation in explanations {
-        let share = likelihood(explanation) / whole;
+    let deviances: Vec<f64> = explanations.iter().map(|e| e.deviance).collect();
+    for (explanation, share) in explanations.iter().zip(shares(&deviances)) {
         let off = all.values(sums, explanation)? - values;
         covariance += (all.covariance(sums, explanation)? + &off * off.transpose()) * share;
     }
     Some(covariance)
+}
+
+/// How likely each of them is among all: exp(−d/2) of their deviances, the least of which is taken out, as with
+/// thousands of readings nothing but zeros would remain.
+fn shares(deviances: &[f64]) -> Vec<f64> {
+    let least = deviances.iter().copied().fold(f64::INFINITY, f64::min);
+    let likelihoods = deviances.iter().map(|deviance| (-0.5 * (deviance - least)).exp());
+    let whole: f64 = likelihoods.clone().sum();
+    likelihoods.map(|likelihood| likelihood / whole).collect()
 }
 
 fn rms<'v>(
@@ -147,4 +153,23 @@ fn angles(task: Task<'_>) -> Vec<(usize, Vec<usize>)> {
         ANGLES.contains(&distinct.len()).then_some((axis, parts))
     };
     rotary.filter_map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Only differences of deviances count, however many readings there are.
+    #[test]
+    fn law_the_shares_do_not_depend_on_what_all_have_in_common() {
+        // exp(−0), exp(−1), exp(−2) over their sum.
+        let due = [0.665_241, 0.244_728, 0.090_031];
+        for common in [-50_000.0, -300.0, 0.0, 7.5, 2_000.0, 80_000.0] {
+            let found = shares(&[common, common + 2.0, common + 4.0]);
+            assert!(
+                found.iter().zip(due).all(|(a, b)| (a - b).abs() < 1e-6),
+                "{common}: {found:?}"
+            );
+        }
+    }
 }

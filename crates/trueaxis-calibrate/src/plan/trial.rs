@@ -363,3 +363,26 @@ fn read_at(
     };
     directions.into_iter().filter_map(contact).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trueaxis_machine::file::NoTables;
+
+    /// Places of a trial are within the travel, wherever it lies, and reach both of its ends.
+    #[test]
+    fn law_a_share_of_the_travel_is_a_place_within_it() {
+        let text = "[machine]\nname = \"m\"\nchain = \"w C A b X Y Z t\"\n[axis.X]\ntravel = [\"-700 mm\", \"-300 mm\"]\n[axis.A]\ntravel = [\"-10 deg\", \"95 deg\"]\n";
+        let machine = Machine::check("m", text, &NoTables).0.expect("a machine");
+        let axis = |name: &str| {
+            machine.axes().iter().position(|a| a.name.to_string() == name).expect("an axis")
+        };
+        for (share, due) in [(-1.0, -700.0), (-0.5, -600.0), (0.0, -500.0), (1.0, -300.0)] {
+            assert_eq!(within(&machine, axis("X"), share), due);
+        }
+        // A rotary axis turns about its zero; where its travel ends before, to that end.
+        assert!((within(&machine, axis("A"), -1.0).to_degrees() + 10.0).abs() < 1e-9);
+        assert_eq!(within(&machine, axis("A"), 0.0), 0.0);
+        assert_eq!(within(&machine, axis("C"), 1.0), TURN_RAD);
+    }
+}

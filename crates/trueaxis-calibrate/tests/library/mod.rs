@@ -3,13 +3,18 @@
 #![allow(dead_code, reason = "each test takes what it needs")]
 
 use std::path::{Path, PathBuf};
+use trueaxis_geometry::Vec3;
 use trueaxis_geometry::statistics::SplitMix64;
 use trueaxis_input::{Files, Source};
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::AxisKind;
+use trueaxis_machine::axis::{AxisKind, Command, Travel};
 use trueaxis_machine::errors::{Component, ErrorKind, ErrorName};
-use trueaxis_measure::measure::Readings;
+use trueaxis_machine::twist::Reference;
+use trueaxis_measure::instruments::Reading;
+use trueaxis_measure::measure::instrument::{Instrument, SetupUnknown};
+use trueaxis_measure::measure::{Campaign, Kind, Readings};
 use trueaxis_measure::unknowns::design::Design;
+use trueaxis_measure::unknowns::minimal::minimal_location_errors;
 use trueaxis_measure::unknowns::term::{Shape, Term};
 
 struct Disk;
@@ -73,4 +78,66 @@ pub fn read(random: &mut SplitMix64, truth: &Design, at: &Readings, values: &[f6
         }
     }
     readings
+}
+
+/// A probe on a ball, with the least number of location errors.
+pub fn probe_campaign(machine: Machine) -> Campaign {
+    let kind = Kind::ProbeBall;
+    let free = |error| SetupUnknown { name: kind.unknown_name(error), error, prior_u: None };
+    let probe = Instrument {
+        name: "probe".to_owned(),
+        kind,
+        sight: kind.sight(),
+        reference: Reference::Workpiece,
+        tool_point_mm: machine.tip_mm(),
+        reference_point_mm: Vec3::new(40.0, -70.0, 90.0),
+        direction: Vec3::x(),
+        length_mm: 0.0,
+        noise: [1e-3; 3],
+        unknowns: kind.usual_unknowns().into_iter().map(free).collect(),
+        material: None,
+        reads: Default::default(),
+        drift: Default::default(),
+        assumed: Default::default(),
+    };
+    Campaign {
+        conditions: None,
+        files: disk(),
+        name: "R-test".to_owned(),
+        path: PathBuf::from("campaign.toml"),
+        machine_path: PathBuf::from("machine.toml"),
+        terms: minimal_location_errors(&machine),
+        instruments: vec![probe],
+        tables: vec![Vec::new()],
+        stages: Default::default(),
+        limits: Default::default(),
+        machine,
+    }
+}
+
+/// Poses all over the travel, one after the other.
+pub fn poses(random: &mut SplitMix64, machine: &Machine, count: u32) -> Readings {
+    let mut poses = Readings::default();
+    for group in 0..count {
+        let mut command = Command::default();
+        for (q, axis) in command.iter_mut().zip(machine.axes()) {
+            *q = match (axis.travel, axis.kind) {
+                (Travel::Between(from, to), _) => from + (to - from) * random.unit(),
+                (_, AxisKind::Linear) => within(random, 400.0),
+                (_, AxisKind::Rotary) => within(random, 1.6),
+            };
+        }
+        poses.push(Reading {
+            command,
+            approach: Default::default(),
+            instrument: 0,
+            direction: Vec3::x(),
+            value: [0.0; 3],
+            group,
+            time_s: 300.0 * f64::from(group),
+            motion: Default::default(),
+            line: group + 2,
+        });
+    }
+    poses
 }

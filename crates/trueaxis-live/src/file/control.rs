@@ -43,7 +43,7 @@ impl ControlPlan {
         match self {
             Self::Fanuc(fanuc) => fanuc.timeout_s,
             Self::LinuxCnc(linuxcnc) => linuxcnc.timeout_s,
-            Self::OpcUa(opcua) => opcua.timeout_s,
+            Self::OpcUa(opcua) => opcua.server.timeout_s,
         }
     }
 

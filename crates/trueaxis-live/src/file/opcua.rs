@@ -21,9 +21,9 @@ pub enum Security {
     SignAndEncrypt,
 }
 
-/// A control with an OPC UA server.
+/// How a server is reached.
 #[derive(Debug, Clone, PartialEq)]
-pub struct OpcUaPlan {
+pub struct OpcUaServer {
     /// `opc.tcp://host:4840`.
     pub endpoint: String,
     /// How messages are protected.
@@ -34,6 +34,13 @@ pub struct OpcUaPlan {
     pub pki: PathBuf,
     /// The time limit of one exchange.
     pub timeout_s: f64,
+}
+
+/// A control with an OPC UA server.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OpcUaPlan {
+    /// Its server.
+    pub server: OpcUaServer,
     /// The server that this plan is of.
     pub bound: Option<Bound>,
     /// Which node is what.
@@ -73,7 +80,7 @@ fn node(section: &Section<'_>, key: &str) -> Option<String> {
     None
 }
 
-fn needed(section: &Section<'_>, key: &str) -> Option<String> {
+pub(super) fn needed(section: &Section<'_>, key: &str) -> Option<String> {
     section.require(key, &format!("{key} = {NODE_HINT}"))?;
     node(section, key)
 }
@@ -85,13 +92,9 @@ fn of_axes(section: &Section<'_>, key: &str, axes: &[String]) -> Option<Vec<Stri
     section.section(key, read).flatten()
 }
 
-pub(super) fn read_opcua(
-    section: &Section<'_>,
-    folder: &Path,
-    (machine, axes): (&Machine, &[AxisPlan]),
-    commissions: bool,
-) -> Option<OpcUaPlan> {
-    let endpoint = section.require("endpoint", "endpoint = \"opc.tcp://192.168.1.30:4840\"");
+/// The server that a key names, and what else is said of the way to it.
+pub(super) fn read_server(section: &Section<'_>, key: &str, folder: &Path) -> Option<OpcUaServer> {
+    let endpoint = section.require(key, &format!("{key} = \"opc.tcp://192.168.1.30:4840\""));
     let endpoint = endpoint.and_then(|item| {
         let text = item.text()?;
         if !text.starts_with("opc.tcp://") {
@@ -110,6 +113,22 @@ pub(super) fn read_opcua(
     let security = section.require("security", hint).and_then(|item| word(&item, &kinds));
     let login = read_login(section, folder);
     let timeout_s = time(section, "timeout", 0.5);
+    Some(OpcUaServer {
+        endpoint: endpoint?,
+        security: security?,
+        login: login?,
+        pki: section.text("pki").map_or_else(|| folder.join("pki"), |name| folder.join(name)),
+        timeout_s,
+    })
+}
+
+pub(super) fn read_opcua(
+    section: &Section<'_>,
+    folder: &Path,
+    (machine, axes): (&Machine, &[AxisPlan]),
+    commissions: bool,
+) -> Option<OpcUaPlan> {
+    let server = read_server(section, "endpoint", folder);
     let bound = section.section("identity", read_identity).flatten();
     let hint = "positions_have_offset = true where the position that is read has the offset in it";
     let have = section.require("positions_have_offset", hint).and_then(|item| item.flag());
@@ -128,17 +147,7 @@ pub(super) fn read_opcua(
     if !commissions {
         check_commissioned(axes, |code, message, hint| section.error(code, message, hint));
     }
-    Some(OpcUaPlan {
-        endpoint: endpoint?,
-        security: security?,
-        login: login?,
-        pki: section.text("pki").map_or_else(|| folder.join("pki"), |name| folder.join(name)),
-        timeout_s,
-        bound,
-        nodes: nodes?,
-        positions_have_offset: have?,
-        modes,
-    })
+    Some(OpcUaPlan { server: server?, bound, nodes: nodes?, positions_have_offset: have?, modes })
 }
 
 /// None inside is no login.

@@ -6,6 +6,7 @@ use crate::model::{at, remembered};
 use crate::sensor::SensorSettings;
 use crate::sensor::modbus::ModbusSource;
 use crate::sensor::mqtt::MqttSource;
+use crate::sensor::opcua::OpcUaSource;
 use std::path::Path;
 use std::sync::Arc;
 use trueaxis::input::plausible::Quantity;
@@ -41,6 +42,8 @@ pub enum Source {
     Mqtt(MqttSource),
     /// A register of a Modbus device.
     Modbus(ModbusSource),
+    /// A node of an OPC UA server.
+    OpcUa(Box<OpcUaSource>),
     /// One value, every second: for a mock.
     Constant {
         /// The value.
@@ -231,7 +234,7 @@ fn read_sensor(section: &Section<'_>, name: &str, folder: &Path) -> Option<Senso
     });
     let stale = section.require("stale", "stale = \"30 s\"").is_some();
     let (stale_s, stuck_s) = (time(section, "stale", 30.0), time(section, "stuck", 600.0));
-    let hint = "source = { mqtt = \"host:1883\", topic }, { modbus = \"host:502\", register }, { log = \"day.csv\" }, or { constant = \"30.5 degC\" } for a mock";
+    let hint = "source = { mqtt = \"host:1883\", topic }, { modbus = \"host:502\", register }, { opc_ua = \"opc.tcp://host:4840\", node, security }, { log = \"day.csv\" }, or { constant = \"30.5 degC\" } for a mock";
     let source = section.require("source", hint).and_then(|item| {
         item.section(&section.path("source"), |s| read_source(s, &input, folder)).flatten()
     });
@@ -278,7 +281,11 @@ fn read_source(section: &Section<'_>, input: &str, folder: &Path) -> Option<Sour
     if let Some(item) = section.get("modbus") {
         return sources::read_modbus(section, &item).map(Source::Modbus);
     }
-    let hint = "mqtt = \"host:1883\", modbus = \"host:502\", log = \"day.csv\", or constant = \"30.5 degC\"";
+    if let Some(item) = section.get("opc_ua") {
+        return sources::read_opcua(section, &item, folder)
+            .map(|source| Source::OpcUa(Box::new(source)));
+    }
+    let hint = "mqtt = \"host:1883\", modbus = \"host:502\", opc_ua = \"opc.tcp://host:4840\", log = \"day.csv\", or constant = \"30.5 degC\"";
     let item = section.require("log", hint)?;
     let path = folder.join(item.text()?);
     let mut problems = Diagnostics::new();

@@ -1,8 +1,9 @@
 //! Sources of samples on a network, in a plan.
 
-use super::word;
+use super::{opcua, word};
 use crate::sensor::modbus::{ModbusSource, Registers, Word};
 use crate::sensor::mqtt::MqttSource;
+use crate::sensor::opcua::{OpcUaSource, ValueTime};
 use std::path::Path;
 use trueaxis::input::{Dimension, Item, Section};
 
@@ -90,21 +91,7 @@ pub(super) fn read_modbus(section: &Section<'_>, item: &Item<'_>) -> Option<Modb
     let kind = section.get("as").map_or(Some(Word::I16), |i| word(&i, &words));
     let unit = whole(section, "unit", Some(255), f64::from(u8::MAX));
     let register = whole(section, "register", None, f64::from(u16::MAX));
-    let number = |key: &str, usual: f64| match section.get(key) {
-        None => Some(usual),
-        Some(item) => item.number(),
-    };
-    let scale = number("scale", 1.0);
-    let offset = match section.get("offset") {
-        None => Some(0.0),
-        Some(item) => item.number(),
-    };
-    let period_s = section.get("period").map_or(Some(1.0), |i| i.unjudged(Dimension::Time));
-    if scale == Some(0.0) || period_s.is_some_and(|s| !(0.01..=3600.0).contains(&s)) {
-        let message = "a scale of 0, or a period that is not between 10 ms and an hour".to_owned();
-        item.error("not-positive", message, "scale = 0.1, period = \"1 s\"");
-        return None;
-    }
+    let [scale, offset, period_s] = read_counting(section, item)?;
     let (host, port) = at?;
     Some(ModbusSource {
         address: format!("{host}:{port}"),
@@ -112,10 +99,39 @@ pub(super) fn read_modbus(section: &Section<'_>, item: &Item<'_>) -> Option<Modb
         registers: registers?,
         register: register?,
         word: kind?,
-        scale: scale?,
-        offset: offset?,
-        period_s: period_s?,
+        scale,
+        offset,
+        period_s,
     })
+}
+
+pub(super) fn read_opcua(
+    section: &Section<'_>,
+    item: &Item<'_>,
+    folder: &Path,
+) -> Option<OpcUaSource> {
+    let server = opcua::read_server(section, "opc_ua", folder);
+    let node = opcua::needed(section, "node");
+    let times = [("source", ValueTime::Source), ("read", ValueTime::Read)];
+    let time = section.get("time").map_or(Some(ValueTime::Source), |i| word(&i, &times));
+    let [scale, offset, period_s] = read_counting(section, item)?;
+    Some(OpcUaSource { server: server?, node: node?, time: time?, scale, offset, period_s })
+}
+
+/// °C per unit, °C at 0, and the period, s.
+fn read_counting(section: &Section<'_>, item: &Item<'_>) -> Option<[f64; 3]> {
+    let number = |key: &str, usual: f64| match section.get(key) {
+        None => Some(usual),
+        Some(item) => item.number(),
+    };
+    let (scale, offset) = (number("scale", 1.0), number("offset", 0.0));
+    let period_s = section.get("period").map_or(Some(1.0), |i| i.unjudged(Dimension::Time));
+    if scale == Some(0.0) || period_s.is_some_and(|s| !(0.01..=3600.0).contains(&s)) {
+        let message = "a scale of 0, or a period that is not between 10 ms and an hour".to_owned();
+        item.error("not-positive", message, "scale = 0.1, period = \"1 s\"");
+        return None;
+    }
+    Some([scale?, offset?, period_s?])
 }
 
 /// A whole number from 0.

@@ -2,12 +2,13 @@
 
 use super::{Nodes, Said, Value};
 use crate::control::LinkFault;
-use crate::file::{OpcUaPlan, Security};
+use crate::file::{OpcUaServer, Security};
+use crate::sensor::opcua::Timed;
 use opcua::client::{ClientBuilder, IdentityToken, Password, Session};
 use opcua::crypto::SecurityPolicy;
 use opcua::types::{
-    MessageSecurityMode, NodeId, ReadValueId, TimestampsToReturn, UserTokenPolicy, Variant,
-    WriteValue,
+    DataValue, MessageSecurityMode, NodeId, ReadValueId, TimestampsToReturn, UserTokenPolicy,
+    Variant, WriteValue,
 };
 use std::collections::BTreeMap;
 use std::str::FromStr;
@@ -21,12 +22,16 @@ use tokio::time::timeout;
 const PAUSE_S: f64 = 1.0;
 /// To open one takes some exchanges, with encryption some of arithmetic: so many time limits.
 const OPENING: u32 = 10;
+/// The time of every server. The time that it gives to a value need not be that at which it was asked.
+const CURRENT_TIME: &str = "i=2258";
+/// How often a server counts its time at least, s.
+const TICK_S: f64 = 2.0;
 /// Manufacturer, product and software version of every server (OPC 10000-5).
 const BUILD_INFO: [&str; 3] = ["i=2263", "i=2261", "i=2264"];
 
 /// One server.
 pub struct Client {
-    plan: OpcUaPlan,
+    server: OpcUaServer,
     runtime: Runtime,
     session: Option<Arc<Session>>,
     /// Not before, s.
@@ -37,7 +42,7 @@ pub struct Client {
 
 impl std::fmt::Debug for Client {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Client").field("endpoint", &self.plan.endpoint).finish_non_exhaustive()
+        f.debug_struct("Client").field("endpoint", &self.server.endpoint).finish_non_exhaustive()
     }
 }
 
@@ -46,19 +51,19 @@ fn down(reason: impl std::fmt::Display) -> LinkFault {
 }
 
 impl Client {
-    /// Of a plan; it connects when it is asked first.
+    /// Of a server; it connects when it is asked first.
     ///
     /// # Errors
     /// What the system says.
-    pub fn of(plan: &OpcUaPlan) -> std::io::Result<Self> {
+    pub fn of(server: &OpcUaServer) -> std::io::Result<Self> {
         let runtime =
             tokio::runtime::Builder::new_multi_thread().worker_threads(1).enable_all().build()?;
         let (session, kinds) = (None, BTreeMap::new());
-        Ok(Self { plan: plan.clone(), runtime, session, again_s: f64::NEG_INFINITY, kinds })
+        Ok(Self { server: server.clone(), runtime, session, again_s: f64::NEG_INFINITY, kinds })
     }
 
     fn limit(&self) -> Duration {
-        Duration::from_secs_f64(self.plan.timeout_s)
+        Duration::from_secs_f64(self.server.timeout_s)
     }
 
     /// Waits so long at most; a limit counts within a runtime only.
@@ -72,7 +77,7 @@ impl Client {
             clippy::cast_sign_loss,
             reason = "ms of a limit"
         )]
-        let millis = (self.plan.timeout_s * 1e3) as u32;
+        let millis = (self.server.timeout_s * 1e3) as u32;
         LinkFault::Silent { millis }
     }
 
@@ -85,7 +90,7 @@ impl Client {
             return Err(down("no session; it is opened again in a moment"));
         }
         self.again_s = now_s + PAUSE_S;
-        let opened = self.within(OPENING * self.limit(), open(&self.plan));
+        let opened = self.within(OPENING * self.limit(), open(&self.server));
         let session = opened.map_err(|_| self.silent())??;
         self.session = Some(Arc::clone(&session));
         Ok(session)
@@ -102,11 +107,12 @@ impl Client {
         }
     }
 
-    fn values(&mut self, nodes: &[&str], now_s: f64) -> Result<Vec<Said<Variant>>, LinkFault> {
+    /// What the server says of nodes, each with the times that it has.
+    fn answers(&mut self, nodes: &[&str], now_s: f64) -> Result<Vec<DataValue>, LinkFault> {
         let ids = nodes.iter().map(|node| id(node)).collect::<Result<Vec<_>, _>>()?;
         let session = self.session(now_s)?;
         let asked: Vec<ReadValueId> = ids.into_iter().map(ReadValueId::from).collect();
-        let work = session.read(&asked, TimestampsToReturn::Neither, 0.0);
+        let work = session.read(&asked, TimestampsToReturn::Both, 0.0);
         let answered = match self.within(self.limit(), work) {
             Ok(Ok(answered)) => answered,
             Ok(Err(fault)) => {
@@ -122,12 +128,30 @@ impl Client {
             let reason = format!("{} values answer {}", answered.len(), nodes.len());
             return Err(LinkFault::Garbage { reason });
         }
-        // No status means good.
-        let one = |value: opcua::types::DataValue| match value.status.filter(|s| !s.is_good()) {
-            Some(status) => Err(status.to_string()),
-            None => value.value.ok_or_else(|| "no value".to_owned()),
+        Ok(answered)
+    }
+
+    fn values(&mut self, nodes: &[&str], now_s: f64) -> Result<Vec<Said<Variant>>, LinkFault> {
+        Ok(self.answers(nodes, now_s)?.into_iter().map(good).collect())
+    }
+
+    /// Values with their ages: the time of the server less that of the source.
+    ///
+    /// # Errors
+    /// [`LinkFault`] where the server was not reached.
+    pub fn timed(&mut self, nodes: &[&str], now_s: f64) -> Result<Vec<Said<Timed>>, LinkFault> {
+        let all: Vec<&str> = nodes.iter().copied().chain([CURRENT_TIME]).collect();
+        let mut answers = self.answers(&all, now_s)?;
+        let server = match answers.pop().map(good) {
+            Some(Ok(Variant::DateTime(time))) => Some(time),
+            _ => None,
         };
-        Ok(answered.into_iter().map(one).collect())
+        let one = |answer: DataValue| {
+            let times = server.as_deref().copied().zip(answer.source_timestamp);
+            let age_s = times.map(|(server, source)| age_of((server - source).as_seconds_f64()));
+            good(answer).and_then(number_or_bit).map(|value| Timed { value, age_s })
+        };
+        Ok(answers.into_iter().map(one).collect())
     }
 
     /// A value in the type that its node has.
@@ -149,9 +173,26 @@ impl Client {
     }
 }
 
+/// A clock that counts whole seconds is late by less than [`TICK_S`]; any more is a fault of its own.
+fn age_of(age_s: f64) -> f64 {
+    if age_s > -TICK_S { age_s.max(0.0) } else { age_s }
+}
+
+/// The value of a node, or its status; no status means good.
+fn good(answer: DataValue) -> Said<Variant> {
+    match answer.status.filter(|status| !status.is_good()) {
+        Some(status) => Err(status.to_string()),
+        None => answer.value.ok_or_else(|| "no value".to_owned()),
+    }
+}
+
+fn number_or_bit(variant: Variant) -> Said<Value> {
+    value_of(&variant).ok_or_else(|| "neither number nor bit".to_owned())
+}
+
 /// The server is opened: its endpoint with this security, this user.
-async fn open(plan: &OpcUaPlan) -> Result<Arc<Session>, LinkFault> {
-    let (policy, mode) = match plan.security {
+async fn open(server: &OpcUaServer) -> Result<Arc<Session>, LinkFault> {
+    let (policy, mode) = match server.security {
         Security::None => (SecurityPolicy::None, MessageSecurityMode::None),
         Security::Sign => (SecurityPolicy::Basic256Sha256, MessageSecurityMode::Sign),
         Security::SignAndEncrypt => {
@@ -161,17 +202,17 @@ async fn open(plan: &OpcUaPlan) -> Result<Arc<Session>, LinkFault> {
     let builder = ClientBuilder::new()
         .application_name("TrueAxis")
         .application_uri("urn:TrueAxis")
-        .pki_dir(&plan.pki)
-        .create_sample_keypair(plan.security != Security::None)
+        .pki_dir(&server.pki)
+        .create_sample_keypair(server.security != Security::None)
         .trust_server_certs(false)
         .session_retry_limit(0)
-        .request_timeout(Duration::from_secs_f64(plan.timeout_s));
+        .request_timeout(Duration::from_secs_f64(server.timeout_s));
     let mut client = builder.client().map_err(|faults| down(faults.join("; ")))?;
-    let token = match &plan.login {
+    let token = match &server.login {
         Some((user, password)) => IdentityToken::UserName(user.clone(), Password::new(password)),
         None => IdentityToken::Anonymous,
     };
-    let endpoint = (plan.endpoint.as_str(), policy.to_str(), mode, UserTokenPolicy::anonymous());
+    let endpoint = (server.endpoint.as_str(), policy.to_str(), mode, UserTokenPolicy::anonymous());
     let (session, events) =
         client.connect_to_matching_endpoint(endpoint, token).await.map_err(down)?;
     let ended = events.spawn();
@@ -180,21 +221,21 @@ async fn open(plan: &OpcUaPlan) -> Result<Arc<Session>, LinkFault> {
             true => Ok(session),
             false => Err(down("the session was refused")),
         },
-        status = ended => Err(down(refusal(status.ok().map(|s| s.to_string()), plan))),
+        status = ended => Err(down(refusal(status.ok().map(|s| s.to_string()), server))),
     }
 }
 
 /// Why no session came about, with what to do.
-fn refusal(status: Option<String>, plan: &OpcUaPlan) -> String {
+fn refusal(status: Option<String>, server: &OpcUaServer) -> String {
     let status = status.unwrap_or_else(|| "the connection has ended".to_owned());
     if status.contains("UserAccess") || status.contains("IdentityToken") {
         return format!("{status}: the server refuses this user or password");
     }
-    match plan.security {
+    match server.security {
         Security::None => status,
         _ => format!(
             "{status}; certificates: move that of the server from rejected to trusted in {}, and trust own/cert.der of it in the server",
-            plan.pki.display()
+            server.pki.display()
         ),
     }
 }
@@ -248,12 +289,8 @@ fn converted(kind: &Variant, value: &Value) -> Option<Variant> {
 
 impl Nodes for Client {
     fn read(&mut self, nodes: &[&str], now_s: f64) -> Result<Vec<Said<Value>>, LinkFault> {
-        let one = |said: Said<Variant>| {
-            said.and_then(|variant| {
-                value_of(&variant).ok_or_else(|| "neither number nor bit".to_owned())
-            })
-        };
-        Ok(self.values(nodes, now_s)?.into_iter().map(one).collect())
+        let said = self.values(nodes, now_s)?.into_iter();
+        Ok(said.map(|said| said.and_then(number_or_bit)).collect())
     }
 
     fn write(&mut self, nodes: &[(&str, Value)], now_s: f64) -> Result<Vec<Said<()>>, LinkFault> {

@@ -45,8 +45,13 @@ pub struct ProgramSettings {
 impl ProgramSettings {
     /// How far a touch goes on beyond the nominal surface, mm.
     pub fn beyond_of(&self, ball_radius_mm: f64) -> f64 {
-        self.beyond_mm.unwrap_or_else(|| (MOST_BEYOND * ball_radius_mm).min(1.0))
+        self.beyond_mm.unwrap_or_else(|| most_beyond_mm(ball_radius_mm).min(1.0))
     }
+}
+
+/// With this ball the stylus is not crushed where nothing triggers, mm.
+fn most_beyond_mm(ball_radius_mm: f64) -> f64 {
+    MOST_BEYOND * ball_radius_mm
 }
 
 /// A plane face, touched from above.
@@ -136,7 +141,7 @@ pub(in crate::identify::probe) fn fits(
             settings.stand_off_mm
         ));
     }
-    let most = MOST_BEYOND * ball_radius_mm;
+    let most = most_beyond_mm(ball_radius_mm);
     match settings.beyond_mm.filter(|b| *b > most) {
         Some(beyond) => Err(format!(
             "`beyond` of {beyond} mm lets the stylus be crushed where nothing triggers; with this ball at most {most} mm"
@@ -183,4 +188,46 @@ fn read_face(section: &Section<'_>, item: &Item<'_>) -> Option<Face> {
         return None;
     }
     Some(Face { place_mm, length_mm, hits })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::identify::probe::{GaugeKind, Side};
+
+    /// Ring, ball and way of a touch ten times as large fit as they did: lengths only count against lengths.
+    #[test]
+    fn law_whether_a_touch_fits_does_not_depend_on_the_size() {
+        let verdict = |size: f64, stand_off: f64, beyond: f64| {
+            let gauge = Gauge {
+                kind: GaugeKind::Ring,
+                side: Side::Inside,
+                radius_mm: 25.0 * size,
+                u_radius_mm: 0.0,
+                centre_mm: None,
+                u_centre_mm: 0.0,
+            };
+            let settings = ProgramSettings {
+                tool: 1,
+                z_mm: 0.0,
+                clear_z_mm: 0.0,
+                orientation_rad: 0.0,
+                directions: 60,
+                stand_off_mm: stand_off * size,
+                back_off_mm: 0.5,
+                beyond_mm: Some(beyond * size),
+                fast_mm_per_min: 500.0,
+                touch_mm_per_min: 50.0,
+                feed_mm_per_min: 2000.0,
+                face: None,
+            };
+            fits(&settings, &gauge, 3.0 * size).is_ok()
+        };
+        for size in [0.2, 1.0, 7.0] {
+            // A ball of 3 mm in a ring of 25 mm touches 22 mm from the centre; 0.9 of its radius is 2.7 mm.
+            assert!(verdict(size, 21.9, 2.69), "{size}");
+            assert!(!verdict(size, 22.1, 2.69), "{size}");
+            assert!(!verdict(size, 21.9, 2.71), "{size}");
+        }
+    }
 }

@@ -1,0 +1,32 @@
+//! Any text as the record of a part: never a panic; a record that is taken has finite positions and offsets, and every
+//! row that a hole finds is one of its own, at the place of the hole.
+//!
+//! `scripts/fuzz part_record 120`
+
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use trueaxis::predict::acted::{ActedRecord, SAME_PLACE_MM};
+use trueaxis_input::Diagnostics;
+use trueaxis_machine::Machine;
+use trueaxis_machine::file::NoTables;
+
+const MACHINES: [&str; 2] = [
+    "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n",
+    "[machine]\nname = \"m\"\nchain = \"w C A b X Y Z t\"\n",
+];
+
+fuzz_target!(|data: &[u8]| {
+    let Ok(text) = std::str::from_utf8(data) else { return };
+    for machine in MACHINES {
+        let machine = Machine::check("m", machine, &NoTables).0.expect("a machine");
+        let mut problems = Diagnostics::new();
+        let record = ActedRecord::parse("part.csv", text, &machine, &mut problems);
+        assert!(record.is_some() != problems.has_errors());
+        for row in record.iter().flat_map(|record| &record.rows) {
+            assert!(row.time_s.is_finite() && row.at.iter().chain(&row.by).all(|v| v.is_finite()));
+            let last = record.as_ref().and_then(|r| r.at(&machine, &row.at)).expect("its own row at least");
+            assert!((last.at[0] - row.at[0]).abs() <= SAME_PLACE_MM);
+        }
+    }
+});
