@@ -2,13 +2,17 @@
 
 mod library;
 
-use library::{bare, poses, probe_campaign, read, within};
+use library::{bare, disk, poses, probe_campaign, read, root, within};
+use std::collections::BTreeMap;
 use trueaxis_calibrate::identify::convention::check_conventions;
 use trueaxis_calibrate::identify::influence::influences;
 use trueaxis_geometry::statistics::SplitMix64;
-use trueaxis_measure::measure::Readings;
+use trueaxis_machine::errors::ErrorName;
+use trueaxis_measure::measure::virtual_campaign::{measure, read_virtual};
+use trueaxis_measure::measure::{Kind, Readings, read_campaign};
 use trueaxis_measure::unknowns::design::Design;
 use trueaxis_measure::unknowns::fit::fit;
+use trueaxis_measure::unknowns::term::Shape;
 
 /// Location errors of some 20 µm and 60 µrad, as a probe with 1 µm of noise reads them.
 fn campaign(count: u32, seed: u64) -> (Design, Readings) {
@@ -83,5 +87,62 @@ fn law_a_wrong_unit_is_named_and_no_other() {
             ),
             None => assert!(found.is_empty(), "{factor}: {found:?}"),
         }
+    }
+}
+
+/// Of an instrument with one number a turn at one row is found: written by hand until then, by a program from there on.
+#[test]
+fn law_rows_turned_up_to_one_are_the_rarer_ones() {
+    let machine = bare("three-axis-mill");
+    let mut campaign = probe_campaign(machine.clone());
+    let laser = &mut campaign.instruments[0];
+    (laser.kind, laser.sight) = (Kind::LaserLine, Kind::LaserLine.sight());
+    laser.unknowns.clear();
+    let name = ErrorName::parse("EXX").expect("an error");
+    campaign.terms = Shape::parse("polynomial 1-2").expect("a shape").terms(&machine, name);
+    let design = campaign.design();
+    let mut random = SplitMix64::new(3);
+    let values: Vec<f64> = (0..design.unknowns()).map(|_| 0.05 + random.unit() * 0.01).collect();
+    let at = poses(&mut random, &machine, 60);
+    let straight = read(&mut random, &design, &at, &values);
+    let zero = vec![0.0; design.unknowns()];
+    for turned in [0, 25, 40] {
+        let mut readings = straight.clone();
+        for i in 0..turned {
+            let exact = design.read(&at, i, &zero).expect("a reading")[0];
+            readings.values[i][0] = exact - (readings.values[i][0] - exact);
+        }
+        let due: Vec<usize> =
+            if turned < 30 { (0..turned).collect() } else { (turned..60).collect() };
+        assert_eq!(check_conventions(&design, &readings).mixed, due);
+    }
+}
+
+/// Stations of a path are evenly spaced from its first angle to its last, and back the same way.
+#[test]
+fn law_a_path_goes_from_its_first_angle_to_its_last() {
+    let path = root().join("examples/05_identify/path-in-memory.toml");
+    for (from, to, count, back) in
+        [(0.0, 330.0, 12, false), (45.0, -90.0, 2, true), (10.0, 20.0, 5, true)]
+    {
+        let text = format!(
+            "name = \"path\"\nmachine = \"../../machines/lei-hsu-mill/machine.toml\"\n\
+             [unknown]\nlocation = [\"EX0C\"]\n\
+             [instrument.probe]\nkind = \"probe-ball\"\nsocket = \"0 0 -330 mm\"\nreads = \"ball\"\nnoise = \"1 um\"\n\
+             [[path]]\nkind = \"C\"\nfrom = \"{from} deg\"\nto = \"{to} deg\"\ncount = {count}\nback = {back}\n"
+        );
+        let files = disk().with_texts(BTreeMap::from([(path.clone(), text)]));
+        let (read, problems) = read_campaign(&files, &path, |r, c| read_virtual(r, c, Some(1)));
+        let (campaign, real) = read.unwrap_or_else(|| panic!("{problems:?}"));
+        let readings = measure(&campaign, &real).expect("readings").readings;
+        let axis = campaign.machine.axes().iter().position(|a| a.name.to_string() == "C");
+        let found = readings.commands.iter().map(|command| command[axis.expect("C")].to_degrees());
+        let there = (0..count).map(|k| from + (to - from) * f64::from(k) / f64::from(count - 1));
+        let due: Vec<f64> = match back {
+            true => there.clone().chain(there.rev()).collect(),
+            false => there.collect(),
+        };
+        assert_eq!(readings.len(), due.len());
+        assert!(found.zip(due).all(|(found, due)| (found - due).abs() < 1e-9), "{from} {to}");
     }
 }

@@ -271,18 +271,11 @@ fn plain_grid(plan: &Plan, commands: &[Command], selection: &Selection) -> Optio
         (0..kinds.len()).filter(|i| kinds[*i] == AxisKind::Rotary).filter(moved).collect();
     let over: Vec<usize> =
         if rotary.is_empty() { (0..kinds.len()).filter(moved).collect() } else { rotary };
-    let steps = steps(selection.poses.len(), over.len());
-    let total: usize = steps.iter().product();
+    let ranges: Vec<(f64, f64)> = over.iter().map(|axis| range(*axis)).collect();
     let mut taken: Vec<usize> = Vec::new();
-    for k in 0..total {
-        let mut rest = k;
+    for place in lattice(&ranges, &steps(selection.poses.len(), over.len())) {
         let mut wanted = Command::default();
-        for (axis, count) in over.iter().zip(&steps) {
-            let (from, to) = range(*axis);
-            let t = (rest % count) as f64 / (count.max(&2) - 1) as f64;
-            wanted[*axis] = from + (to - from) * t;
-            rest /= count;
-        }
+        over.iter().zip(place).for_each(|(axis, q)| wanted[*axis] = q);
         let distance = |k: &usize| {
             let mut at = Command::default();
             over.iter().for_each(|i| at[*i] = commands[*k][*i]);
@@ -293,6 +286,19 @@ fn plain_grid(plan: &Plan, commands: &[Command], selection: &Selection) -> Optio
         taken.push(nearest);
     }
     Some(taken).filter(|t| !t.is_empty())
+}
+
+/// Every combination of so many even steps over these ranges, the first axis fastest; a single step stays at the beginning.
+fn lattice(ranges: &[(f64, f64)], steps: &[usize]) -> Vec<Vec<f64>> {
+    let place = |mut rest: usize| {
+        let of = |((from, to), count): (&(f64, f64), &usize)| {
+            let t = (rest % count) as f64 / (count.max(&2) - 1) as f64;
+            rest /= count;
+            from + (to - from) * t
+        };
+        ranges.iter().zip(steps).map(of).collect()
+    };
+    (0..steps.iter().product()).map(place).collect()
 }
 
 /// At most `poses` combinations over some axes, as even as it goes.
@@ -316,5 +322,14 @@ mod tests {
         // 4·3 = 12, 4·4 = 16 is too many, 5·3 = 15 fits.
         assert_eq!(steps(15, 2), [5, 3]);
         assert_eq!(steps(15, 0), Vec::<usize>::new());
+    }
+
+    #[test]
+    fn a_lattice_goes_from_end_to_end() {
+        let found = lattice(&[(-30.0, 30.0), (100.0, 50.0)], &[3, 2]);
+        let due =
+            [[-30.0, 100.0], [0.0, 100.0], [30.0, 100.0], [-30.0, 50.0], [0.0, 50.0], [30.0, 50.0]];
+        assert_eq!(found, due);
+        assert_eq!(lattice(&[(7.0, 9.0)], &[1]), [[7.0]]);
     }
 }

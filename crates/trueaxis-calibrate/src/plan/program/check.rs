@@ -289,10 +289,25 @@ fn bodies(settings: &ProgramSettings, kind: Kind, ball_mm: Vec3) -> Vec<BodyMode
         let from = ball_mm - along * (0.5 * size);
         bodies.extend(cylinder("ball", size, size, from, along));
     }
-    let length = (settings.stem_length_mm - radius).max(1.0);
-    let from = ball_mm + along * (radius * 1.2);
-    bodies.extend(cylinder("stem of the ball", settings.stem_diameter_mm, length, from, along));
+    bodies.extend(stem(
+        radius,
+        ball_mm,
+        along,
+        (settings.stem_diameter_mm, settings.stem_length_mm),
+    ));
     bodies
+}
+
+/// The stem of a ball, from just outside of it: what touches the ball is not in its way.
+fn stem(
+    radius_mm: f64,
+    ball_mm: Vec3,
+    along: Vec3,
+    (diameter_mm, length_mm): (f64, f64),
+) -> Option<BodyModel> {
+    let from = ball_mm + along * (radius_mm * 1.2);
+    let length_mm = (length_mm - radius_mm).max(1.0);
+    cylinder("stem of the ball", diameter_mm, length_mm, from, along)
 }
 
 fn cylinder(
@@ -315,6 +330,25 @@ fn cylinder(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use trueaxis_geometry::frame::Point;
+
+    /// The stem begins outside of the ball and near it, wherever it points.
+    #[test]
+    fn law_the_stem_is_no_part_of_the_ball() {
+        for along in [-Vec3::z(), Vec3::x(), Vec3::new(0.3, -0.5, -0.8).normalize()] {
+            for radius_mm in [5.0, 12.7] {
+                let ball_mm = Vec3::new(40.0, -70.0, 90.0);
+                let stem = stem(radius_mm, ball_mm, along, (6.0, 80.0)).expect("a body");
+                let corners = stem.mesh.triangles().iter().flatten();
+                let off =
+                    corners.map(|c| (stem.placement * Point::from_vector(*c)).vector() - ball_mm);
+                let off: Vec<Vec3> = off.collect();
+                assert!(off.iter().all(|off| off.norm() > radius_mm));
+                let nearest = off.iter().map(|off| off.dot(&along)).fold(f64::INFINITY, f64::min);
+                assert!(nearest > radius_mm && nearest < 1.3 * radius_mm, "{nearest}");
+            }
+        }
+    }
 
     /// Poses on a lattice, so that many share coordinates, with a share that is not on it.
     fn poses(count: u64, seed: u64) -> Vec<Command> {

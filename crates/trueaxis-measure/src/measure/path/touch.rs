@@ -151,3 +151,33 @@ fn touched(
     }
     rows
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// However tool and stem stand: hits are unit vectors from free sides, one along the tool, the others across it.
+    #[test]
+    fn law_hits_are_one_from_above_and_the_others_across() {
+        let tilted = |x: f64, y: f64| Vec3::new(x, y, 1.0).normalize();
+        for (tool_axis, stem) in [
+            (Vec3::z(), -Vec3::z()),
+            (tilted(0.6, 0.3), -tilted(0.6, 0.3)),
+            (tilted(-0.2, 1.4), -Vec3::z()),
+            (Vec3::x(), -Vec3::x()),
+        ] {
+            let free = FreeSide { stem };
+            for count in [1, 2, 5, 13] {
+                let sides = hits(free, tool_axis, count);
+                assert_eq!((sides.len(), sides[0]), (count, tool_axis));
+                for side in &sides {
+                    assert!((side.norm() - 1.0).abs() < 1e-12 && free.is_free(side, &tool_axis));
+                }
+                assert!(sides[1..].iter().all(|side| side.dot(&tool_axis).abs() < 1e-12));
+                // All round where nothing is in the way: their sum is nothing.
+                let sum: Vec3 = sides[1..].iter().sum();
+                assert!(stem != -tool_axis || count < 3 || sum.norm() < 1e-12, "{count}: {sum}");
+            }
+        }
+    }
+}
