@@ -302,6 +302,12 @@ impl Governor {
         if self.has_run { Some(self.owned()) } else { self.owned.clone() }
     }
 
+    /// Nothing of this run or of an earlier one is in the control, nor on its way there.
+    fn has_nothing_there(&self) -> bool {
+        let nothing = |owned: Owned| owned.last == owned.base && owned.before == owned.base;
+        !self.may_still_come() && self.known().is_none_or(nothing)
+    }
+
     /// What was written last may become visible yet.
     fn may_still_come(&self) -> bool {
         self.under_way_s.is_some_and(|s| s <= self.settings.window_s)
@@ -309,6 +315,10 @@ impl Governor {
 
     /// The first reading: takes over what the control holds, without a jump.
     fn arm(&mut self, seen: &Seen, inputs: &Inputs<'_>) -> Option<Order> {
+        if !inputs.run && self.has_nothing_there() {
+            self.enter(State::Off, Reason::NotAsked, 0.0);
+            return Some(self.order(None, seen));
+        }
         if let Some(reason) = self.forbidden(seen) {
             self.enter(State::Arm, reason, 0.0);
             return Some(self.order(None, seen));

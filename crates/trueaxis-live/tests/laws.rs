@@ -74,20 +74,11 @@ struct Counted {
     states: std::collections::BTreeSet<String>,
 }
 
-/// Runs one governor through so many steps of faults, and checks every write.
-fn run(random: &mut Random, steps: u32, counted: &mut Counted) {
-    let settings = settings(random);
-    let axes = settings.axes.len();
-    let foreign: Vec<i32> = (0..axes).map(|_| (random.next() % 100) as i32 - 50).collect();
-    let owned = random.one_in(3).then(|| Owned {
-        base: foreign.clone(),
-        last: foreign.clone(),
-        before: foreign.clone(),
-    });
-    let mut governor = Governor::new(settings.clone(), owned);
-    let seen = Seen {
+/// A control that cuts and holds these offsets.
+fn cutting(offsets: Vec<i32>) -> Seen {
+    Seen {
         positions: vec![0.0; 3],
-        offsets: foreign,
+        offsets,
         acting: None,
         homed: true,
         emergency: false,
@@ -102,8 +93,21 @@ fn run(random: &mut Random, steps: u32, counted: &mut Counted) {
         tool_length_mm: None,
         standing_tip_mm: None,
         block: None,
-    };
-    let mut plant = Plant { seen, pending: Vec::new() };
+    }
+}
+
+/// Runs one governor through so many steps of faults, and checks every write.
+fn run(random: &mut Random, steps: u32, counted: &mut Counted) {
+    let settings = settings(random);
+    let axes = settings.axes.len();
+    let foreign: Vec<i32> = (0..axes).map(|_| (random.next() % 100) as i32 - 50).collect();
+    let owned = random.one_in(3).then(|| Owned {
+        base: foreign.clone(),
+        last: foreign.clone(),
+        before: foreign.clone(),
+    });
+    let mut governor = Governor::new(settings.clone(), owned);
+    let mut plant = Plant { seen: cutting(foreign), pending: Vec::new() };
     let (mut now_s, mut target, mut linked) = (0.0, vec![0.0; axes], true);
     let (mut sensor, mut wanted) = (true, true);
     // Of each axis: what was used of its slew and one step. It empties by the slew, so that it stays below a step exactly where
@@ -237,6 +241,32 @@ fn law_governor_limits_are_never_broken() {
     );
     // It is no law if nothing was tried.
     assert!(*writes > done / 20 && *latched > 0 && states.len() >= 15, "{states:?}");
+}
+
+/// What waits for its first sensor has written nothing, so that it ends at once; what an earlier run has left in the control waits.
+#[test]
+fn a_run_that_never_began_ends_at_once() {
+    let left = |last: i32| Owned { base: vec![7], last: vec![last], before: vec![last] };
+    for (owned, due) in
+        [(None, State::Off), (Some(left(7)), State::Off), (Some(left(12)), State::Arm)]
+    {
+        let held = owned.as_ref().map_or(7, |owned: &Owned| owned.last[0]);
+        let axes = vec![limits(&mut Random(4))];
+        let mut governor = Governor::new(Settings { axes, ..settings(&mut Random(5)) }, owned);
+        let seen = cutting(vec![held]);
+        let mut state = |run: bool| {
+            let target = Err(Reason::Model { what: "no sample yet".to_owned() });
+            let inputs =
+                Inputs { seen: Ok(&seen), target, run, confirmed: false, journal_fails: false };
+            let order = governor.step(0.05, &inputs);
+            assert_eq!(order.write, None);
+            order.state
+        };
+        assert_eq!(
+            (state(true), state(true), state(false), state(false)),
+            (State::Arm, State::Arm, due, due)
+        );
+    }
 }
 
 fn any_call() -> impl Strategy<Value = Call> {
