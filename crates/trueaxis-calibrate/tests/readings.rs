@@ -1,4 +1,4 @@
-//! What is said of single readings, and of readings in a wrong unit.
+//! Readings: where they are taken, what one of them does to the result, and what is said of a wrong unit or sign.
 
 mod library;
 

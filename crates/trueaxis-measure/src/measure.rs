@@ -19,6 +19,6 @@ mod tables;
 pub mod virtual_campaign;
 
 pub use crate::instruments::{Element, Instrument, Kind, Motion, Reading, Readings, instrument};
-pub use campaign::{Campaign, read_campaign, readings_file, usual_setup};
+pub use campaign::{Campaign, read_campaign, readings_file};
 pub use motion::fill_motion;
 pub use tables::read_table;

@@ -8,8 +8,7 @@ use divan::Bencher;
 use std::path::Path;
 use trueaxis::geometry::Vec3;
 use trueaxis::machine::errors::{BodyName, Component, ErrorKind, ErrorName};
-use trueaxis::machine::twist::Reference;
-use trueaxis::measure::instrument::{Instrument, SetupUnknown};
+use trueaxis::measure::instrument::Instrument;
 use trueaxis::measure::{Kind, Reading, Readings};
 use trueaxis::unknowns::design::Design;
 use trueaxis::unknowns::fit::fit;
@@ -48,26 +47,8 @@ fn design() -> Design {
         terms.extend(powers.terms(&machine, motion(axis, direction)));
     }
     terms.sort_by_key(|t| t.index);
-    let kind = Kind::ProbeBall;
-    let unknowns = kind.usual_unknowns();
-    let free = |error| SetupUnknown { name: kind.unknown_name(error), error, prior_u: None };
-    let instrument = Instrument {
-        name: "probe".to_owned(),
-        kind,
-        sight: kind.sight(),
-        reference: Reference::Workpiece,
-        tool_point_mm: machine.tip_mm(),
-        reference_point_mm: Vec3::zeros(),
-        direction: Vec3::x(),
-        length_mm: 0.0,
-        noise: [1e-3; 3],
-        unknowns: unknowns.into_iter().map(free).collect(),
-        material: None,
-        reads: Default::default(),
-        assumed: Default::default(),
-        drift: Default::default(),
-    };
-    let design = Design::new(&machine, terms, vec![instrument]);
+    let probe = Instrument::usual(Kind::ProbeBall, &machine);
+    let design = Design::new(&machine, terms, vec![probe]);
     assert_eq!(design.unknowns(), 43);
     design
 }

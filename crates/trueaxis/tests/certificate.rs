@@ -17,8 +17,7 @@ use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{Approach, AxisKind, Command, Travel};
 use trueaxis::machine::compensate::{Compensator, Scope};
 use trueaxis::machine::errors::{ErrorName, Uncertainty};
-use trueaxis::machine::twist::Reference;
-use trueaxis::measure::instrument::{Instrument, SetupUnknown};
+use trueaxis::measure::instrument::Instrument;
 use trueaxis::measure::{Campaign, Kind, Reading, Readings};
 use trueaxis::predict::{Cutting, Judge, Sampling, Study, read_study};
 use trueaxis::unknowns::minimal::minimal_location_errors;
@@ -65,23 +64,11 @@ fn with_terms(machine: &Machine, terms: &[Term], values: &[f64]) -> Machine {
 
 /// A tracker that reads the place of a reflector so far below the tool tip; its position is not known.
 fn tracker(machine: &Machine, below_mm: f64) -> Instrument {
-    let kind = Kind::CutPiece;
-    let free = |error| SetupUnknown { name: kind.unknown_name(error), error, prior_u: None };
     Instrument {
         name: "tracker".to_owned(),
-        kind,
-        sight: kind.sight(),
-        reference: Reference::Workpiece,
         tool_point_mm: machine.tip_mm() + Vec3::new(60.0, 25.0, -below_mm),
-        reference_point_mm: Vec3::zeros(),
-        direction: Vec3::x(),
-        length_mm: 0.0,
         noise: [NOISE_MM; 3],
-        unknowns: kind.usual_unknowns().into_iter().map(free).collect(),
-        material: None,
-        reads: Default::default(),
-        assumed: Default::default(),
-        drift: Default::default(),
+        ..Instrument::usual(Kind::CutPiece, machine)
     }
 }
 

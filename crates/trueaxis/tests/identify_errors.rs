@@ -17,8 +17,7 @@ use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{Approach, AxisKind};
 use trueaxis::machine::errors::{Component, ErrorKind, ErrorName};
 use trueaxis::machine::file::Tables;
-use trueaxis::machine::twist::Reference;
-use trueaxis::measure::instrument::{Instrument, SetupUnknown};
+use trueaxis::measure::instrument::Instrument;
 use trueaxis::measure::{Campaign, Kind, Reading, Readings, read_campaign};
 use trueaxis::unknowns::design::Design;
 use trueaxis::unknowns::fit::fit;
@@ -26,22 +25,11 @@ use trueaxis::unknowns::minimal::minimal_location_errors;
 use trueaxis::unknowns::term::{Shape, Term};
 
 fn probe(machine: &Machine, kind: Kind) -> Instrument {
-    let free = |error| SetupUnknown { name: kind.unknown_name(error), error, prior_u: None };
     Instrument {
         name: "probe".to_owned(),
-        kind,
-        sight: kind.sight(),
-        reference: Reference::Workpiece,
-        tool_point_mm: machine.tip_mm(),
         reference_point_mm: Vec3::new(40.0, -70.0, 90.0),
-        direction: Vec3::x(),
-        length_mm: 0.0,
         noise: [1e-3; 3],
-        unknowns: kind.usual_unknowns().into_iter().map(free).collect(),
-        material: None,
-        reads: Default::default(),
-        assumed: Default::default(),
-        drift: Default::default(),
+        ..Instrument::usual(kind, machine)
     }
 }
 

@@ -16,7 +16,6 @@ use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{Approach, AxisKind, Command};
 use trueaxis::machine::errors::{Component, ErrorKind, ErrorName};
-use trueaxis::machine::twist::Reference;
 use trueaxis::measure::instrument::{Instrument, SetupError, SetupUnknown};
 use trueaxis::measure::{Campaign, Kind, Reading, Readings};
 use trueaxis::unknowns::design::Design;
@@ -105,9 +104,7 @@ const FAULTS: [Fault; 12] = [
 ];
 
 fn instrument(machine: &Machine, kind: Kind) -> Instrument {
-    let free =
-        |error| SetupUnknown { name: kind.unknown_name(error), error, prior_u: Option::None };
-    let mut unknowns: Vec<SetupUnknown> = kind.usual_unknowns().into_iter().map(free).collect();
+    let mut unknowns = kind.usual_setup();
     if kind.holds_a_ball() {
         let error = SetupError::ToolPoint(2);
         let name = kind.unknown_name(error);
@@ -115,19 +112,10 @@ fn instrument(machine: &Machine, kind: Kind) -> Instrument {
     }
     Instrument {
         name: "probe".to_owned(),
-        kind,
-        sight: kind.sight(),
-        reference: Reference::Workpiece,
-        tool_point_mm: machine.tip_mm(),
         reference_point_mm: Vec3::new(40.0, -70.0, 90.0),
-        direction: Vec3::x(),
-        length_mm: 0.0,
         noise: [1e-3; 3],
         unknowns,
-        material: Option::None,
-        reads: Default::default(),
-        assumed: Default::default(),
-        drift: Default::default(),
+        ..Instrument::usual(kind, machine)
     }
 }
 

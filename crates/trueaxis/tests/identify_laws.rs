@@ -8,7 +8,7 @@ use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{Approach, AxisKind};
 use trueaxis::machine::errors::{ErrorName, StatedError};
 use trueaxis::machine::twist::Reference;
-use trueaxis::measure::instrument::{Instrument, SetupUnknown};
+use trueaxis::measure::instrument::Instrument;
 use trueaxis::measure::{Kind, Reading, Readings};
 use trueaxis::unknowns::confusion::confusions;
 use trueaxis::unknowns::design::Design;
@@ -19,26 +19,15 @@ use trueaxis::unknowns::minimal::minimal_location_errors;
 use trueaxis::unknowns::term::{Shape, Term};
 
 fn instrument(kind: Kind, machine: &Machine) -> Instrument {
-    let free = |error| SetupUnknown { name: kind.unknown_name(error), error, prior_u: None };
     Instrument {
-        name: kind.name().to_owned(),
-        kind,
-        sight: kind.sight(),
         // From the floor a tracker sees only what carries the tool: enough where that is all.
         reference: match (kind, machine.workpiece_side()) {
             (Kind::LengthTracker, 1) => Reference::Bed,
             _ => Reference::Workpiece,
         },
-        tool_point_mm: machine.tip_mm(),
         reference_point_mm: Vec3::new(40.0, -700.0, 90.0),
-        direction: Vec3::x(),
-        length_mm: 0.0,
         noise: [1e-3; 3],
-        unknowns: kind.usual_unknowns().into_iter().map(free).collect(),
-        material: None,
-        reads: Default::default(),
-        assumed: Default::default(),
-        drift: Default::default(),
+        ..Instrument::usual(kind, machine)
     }
 }
 

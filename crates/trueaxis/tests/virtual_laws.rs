@@ -9,7 +9,6 @@ use trueaxis::geometry::Vec3;
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{AxisKind, Command, MAX_AXES, Travel};
 use trueaxis::machine::errors::{ErrorIndex, ErrorName, StatedError};
-use trueaxis::machine::twist::Reference;
 use trueaxis::measure::instrument::{Instrument, SetupError, SetupUnknown};
 use trueaxis::measure::path::{Path, station};
 use trueaxis::measure::virtual_campaign::{
@@ -34,20 +33,11 @@ fn command(random: &mut Random, machine: &Machine) -> Command {
 
 fn instrument(kind: Kind, machine: &Machine) -> Instrument {
     Instrument {
-        name: kind.name().to_owned(),
-        kind,
-        sight: kind.sight(),
-        reference: Reference::Workpiece,
-        tool_point_mm: machine.tip_mm(),
         reference_point_mm: Vec3::new(40.0, -70.0, 90.0),
-        direction: Vec3::x(),
         length_mm: if kind.triggers() { 15.0 } else { 0.0 },
         noise: [1e-3; 3],
         unknowns: Vec::new(),
-        material: None,
-        reads: Default::default(),
-        assumed: Default::default(),
-        drift: Default::default(),
+        ..Instrument::usual(kind, machine)
     }
 }
 

@@ -258,19 +258,11 @@ fn further_instrument(
     };
     Instrument {
         name: name.to_owned(),
-        kind,
-        sight: kind.sight(),
         reference,
-        tool_point_mm: machine.tip_mm(),
         reference_point_mm,
         direction,
         length_mm: if kind == Kind::BallBar { 150.0 } else { 0.0 },
-        noise: [1e-3; 3],
-        unknowns: trueaxis_measure::measure::usual_setup(kind),
-        material: None,
-        reads: Default::default(),
-        assumed: Default::default(),
-        drift: Default::default(),
+        ..Instrument::usual(kind, machine)
     }
 }
 

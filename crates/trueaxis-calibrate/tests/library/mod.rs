@@ -9,9 +9,8 @@ use trueaxis_input::{Files, Source};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
 use trueaxis_machine::errors::{Component, ErrorKind, ErrorName};
-use trueaxis_machine::twist::Reference;
 use trueaxis_measure::instruments::Reading;
-use trueaxis_measure::measure::instrument::{Instrument, SetupUnknown};
+use trueaxis_measure::measure::instrument::Instrument;
 use trueaxis_measure::measure::{Campaign, Kind, Readings};
 use trueaxis_measure::unknowns::design::Design;
 use trueaxis_measure::unknowns::minimal::minimal_location_errors;
@@ -82,23 +81,9 @@ pub fn read(random: &mut SplitMix64, truth: &Design, at: &Readings, values: &[f6
 
 /// A probe on a ball, with the least number of location errors.
 pub fn probe_campaign(machine: Machine) -> Campaign {
-    let kind = Kind::ProbeBall;
-    let free = |error| SetupUnknown { name: kind.unknown_name(error), error, prior_u: None };
     let probe = Instrument {
-        name: "probe".to_owned(),
-        kind,
-        sight: kind.sight(),
-        reference: Reference::Workpiece,
-        tool_point_mm: machine.tip_mm(),
         reference_point_mm: Vec3::new(40.0, -70.0, 90.0),
-        direction: Vec3::x(),
-        length_mm: 0.0,
-        noise: [1e-3; 3],
-        unknowns: kind.usual_unknowns().into_iter().map(free).collect(),
-        material: None,
-        reads: Default::default(),
-        drift: Default::default(),
-        assumed: Default::default(),
+        ..Instrument::usual(Kind::ProbeBall, &machine)
     };
     Campaign {
         conditions: None,

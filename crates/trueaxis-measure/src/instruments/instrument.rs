@@ -8,6 +8,7 @@
 //!     δr = f · v + m · ω         (v, ω) the twist of the error            docs/model.md eq. 104
 //! ```
 
+use super::Kind;
 use super::drift::Drift;
 use super::element::{Element, across};
 use super::material::MaterialCompensation;
@@ -131,7 +132,7 @@ pub struct Instrument {
     /// Its name in the campaign.
     pub name: String,
     /// What it is, in the words of the shop.
-    pub kind: crate::instruments::Kind,
+    pub kind: Kind,
     /// What it reads.
     pub sight: Sight,
     /// What it stands on.
@@ -202,6 +203,27 @@ struct Setup {
 }
 
 impl Instrument {
+    /// One as its kind is usually set up: on the workpiece, at the tip of the tool, with noise of 1 µm or 1 µrad.
+    pub fn usual(kind: Kind, machine: &Machine) -> Self {
+        let noise = if kind.sight().is_angle() { 1e-6 } else { 1e-3 };
+        Self {
+            name: kind.name().to_owned(),
+            kind,
+            sight: kind.sight(),
+            reference: Reference::Workpiece,
+            tool_point_mm: machine.tip_mm(),
+            reference_point_mm: Vec3::zeros(),
+            direction: Vec3::x(),
+            length_mm: 0.0,
+            noise: [noise; 3],
+            unknowns: kind.usual_setup(),
+            material: None,
+            reads: Reads::default(),
+            assumed: Assumed::default(),
+            drift: Drift::default(),
+        }
+    }
+
     /// The tool at a command of a machine with these errors, as the instrument's reference sees it before it drifts.
     pub fn view(
         &self,
@@ -414,7 +436,6 @@ fn displaced_by(six: &SixErrors) -> Link {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::instruments::Kind;
 
     fn instrument(sight: Sight) -> Instrument {
         Instrument {

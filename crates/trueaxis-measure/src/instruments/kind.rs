@@ -1,7 +1,7 @@
 //! The instruments of the shop by name: what each reads, and what its parts are called.
 
 use super::element::Element;
-use super::instrument::{SetupError, Sight};
+use super::instrument::{SetupError, SetupUnknown, Sight};
 
 /// An instrument of the shop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -175,6 +175,12 @@ impl Kind {
             Sight::Turn => &["angle"],
             Sight::Element(element) => element.channels(),
         }
+    }
+
+    /// What is not known of its set-up unless a campaign says something else: all of it free.
+    pub fn usual_setup(self) -> Vec<SetupUnknown> {
+        let free = |error| SetupUnknown { name: self.unknown_name(error), error, prior_u: None };
+        self.usual_unknowns().into_iter().map(free).collect()
     }
 
     /// What is unknown of its set-up unless the campaign states it.

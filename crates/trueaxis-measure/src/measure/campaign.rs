@@ -334,7 +334,7 @@ fn read_instrument(
     let material = read_material(section, kind, machine, conditions);
     let towards = direction.unwrap_or(Vec3::x());
     let (mut unknowns, walk) = match section.get("unknown") {
-        None => (usual_setup(kind), Walk::default()),
+        None => (kind.usual_setup(), Walk::default()),
         Some(item) => {
             item.section(&section.path("unknown"), |s| read_unknowns(s, kind, towards))?
         }
@@ -464,17 +464,11 @@ pub fn readings_file(instrument: &str) -> String {
     format!("{}.csv", instrument.chars().map(safe).collect::<String>())
 }
 
-/// What is unknown of a set-up unless the campaign states it.
-pub fn usual_setup(kind: Kind) -> Vec<SetupUnknown> {
-    let free = |error| SetupUnknown { name: kind.unknown_name(error), error, prior_u: None };
-    kind.usual_unknowns().into_iter().map(free).collect()
-}
-
 /// `unknown` of an instrument; where nothing but a drift is stated the usual ones remain.
 fn read_unknowns(section: &Section<'_>, kind: Kind, direction: Vec3) -> (Vec<SetupUnknown>, Walk) {
     let drift = section.get("drift").map(|i| read_drift(&i, kind, direction));
     let alone = drift.is_some() && section.entries().iter().all(|(key, ..)| *key == "drift");
-    let mut unknowns = if alone { usual_setup(kind) } else { read_setup(section, kind) };
+    let mut unknowns = if alone { kind.usual_setup() } else { read_setup(section, kind) };
     let StatedDrift { rates, walk } = drift.unwrap_or_default();
     unknowns.extend(rates);
     (unknowns, walk)
