@@ -6,7 +6,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use trueaxis::predict::acted::{ActedRecord, SAME_PLACE_MM};
+use trueaxis::predict::acted::{ActedRecord, SAME_PLACE_MM, is_lateral};
 use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::NoTables;
@@ -26,7 +26,8 @@ fuzz_target!(|data: &[u8]| {
         for row in record.iter().flat_map(|record| &record.rows) {
             assert!(row.time_s.is_finite() && row.at.iter().chain(&row.by).all(|v| v.is_finite()));
             let last = record.as_ref().and_then(|r| r.at(&machine, &row.at)).expect("its own row at least");
-            assert!((last.at[0] - row.at[0]).abs() <= SAME_PLACE_MM);
+            let mut lateral = machine.axes().iter().enumerate().filter(|(_, axis)| is_lateral(axis));
+            assert!(lateral.all(|(i, _)| (last.at[i] - row.at[i]).abs() <= SAME_PLACE_MM));
         }
     }
 });

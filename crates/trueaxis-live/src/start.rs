@@ -6,7 +6,7 @@ use crate::focas::{Fanuc, FanucSettings, Wire};
 use crate::linuxcnc::{HalPins, Joint, LinuxCnc, LinuxCncSettings, LiveJoint};
 use crate::mock::{FanucMock, MockPlan};
 use crate::opcua::{Nodes, OpcUa, OpcUaSettings};
-use crate::sensor::{LogSensor, Sample, Sensor, Sent};
+use crate::sensor::{LogSensor, Sample, Sensor, Sent, modbus, mqtt, opcua};
 use crate::store::Owner;
 use trueaxis::input::{Diagnostics, Place};
 use trueaxis::machine::axis::AxisKind;
@@ -288,45 +288,25 @@ fn without_opcua(plan: &Plan) -> Diagnostics {
 
 /// The sensors of a plan.
 pub fn sensors_of(plan: &Plan) -> Vec<Box<dyn Sensor>> {
-    let sensor = |(i, sensor): (usize, &crate::file::SensorPlan)| -> Option<Box<dyn Sensor>> {
-        Some(match &sensor.source {
+    let (mut sensors, mut nodes): (Vec<Box<dyn Sensor>>, Vec<_>) = (Vec::new(), Vec::new());
+    for (i, sensor) in plan.sensors.iter().enumerate() {
+        sensors.push(match &sensor.source {
             Source::Log { log, column, start_s, speed } => {
                 Box::new(LogSensor::new(log.clone(), column, i, *start_s).at_speed(*speed))
             }
-            Source::Mqtt(source) => crate::sensor::mqtt::subscribe(source, i),
-            Source::Modbus(source) => crate::sensor::modbus::read_register(source, i),
-            Source::OpcUa(_) => return None,
+            Source::Mqtt(source) => mqtt::subscribe(source, i),
+            Source::Modbus(source) => modbus::read_register(source, i),
+            Source::OpcUa(source) => {
+                nodes.push((i, source.as_ref()));
+                continue;
+            }
             Source::Constant { celsius } => {
                 Box::new(ConstantSensor { sensor: i, celsius: *celsius, next_s: 0.0 })
             }
-        })
-    };
-    let others = plan.sensors.iter().enumerate().filter_map(sensor);
-    others.chain(opcua_sensors(plan)).collect()
-}
-
-/// All nodes of one server over one session.
-#[cfg(feature = "opcua")]
-fn opcua_sensors(plan: &Plan) -> Vec<Box<dyn Sensor>> {
-    let mut servers: Vec<Vec<(usize, &crate::sensor::opcua::OpcUaSource)>> = Vec::new();
-    for (i, sensor) in plan.sensors.iter().enumerate() {
-        let Source::OpcUa(source) = &sensor.source else { continue };
-        match servers.iter_mut().find(|group| group[0].1.server == source.server) {
-            Some(group) => group.push((i, source)),
-            None => servers.push(vec![(i, source)]),
-        }
+        });
     }
-    // A thread that the system refuses is a sensor without samples, which the governor sees.
-    servers
-        .iter()
-        .flat_map(|group| crate::sensor::opcua::read_nodes(group).unwrap_or_default())
-        .collect()
-}
-
-/// [`check_built`] has refused such a plan.
-#[cfg(not(feature = "opcua"))]
-fn opcua_sensors(_: &Plan) -> Vec<Box<dyn Sensor>> {
-    Vec::new()
+    sensors.extend(opcua::read_nodes(&nodes));
+    sensors
 }
 
 /// One value, every second.

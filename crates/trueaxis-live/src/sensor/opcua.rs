@@ -4,10 +4,13 @@
 //! and of the server need not agree. All nodes of one server are read over one session; servers in controls
 //! allow few of them.
 
-use super::Sent;
 use super::inbox::Received;
+use super::{Sensor, Sent};
 use crate::file::OpcUaServer;
 use crate::opcua::{Said, Value};
+
+/// How often a server counts its time at least, s.
+const TICK_S: f64 = 2.0;
 
 /// What the time of a value is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,42 +64,62 @@ impl OpcUaSource {
     }
 }
 
+/// How old a value is by the times of its server and of its source, s.
+///
+/// A server may count whole seconds, so that its time is late by less than [`TICK_S`]; any more is a fault of a clock.
+pub fn age_s(server_s: f64, source_s: f64) -> f64 {
+    let age_s = server_s - source_s;
+    if age_s > -TICK_S { age_s.max(0.0) } else { age_s }
+}
+
+/// One sensor for each node; all nodes of one server are read in one thread, as often as the most frequent of them.
+/// A program without the feature has refused such a plan.
+#[cfg(not(feature = "opcua"))]
+pub fn read_nodes(_: &[(usize, &OpcUaSource)]) -> Vec<Box<dyn Sensor>> {
+    Vec::new()
+}
+
+#[cfg(feature = "opcua")]
+pub use thread::read_nodes;
+
 #[cfg(feature = "opcua")]
 mod thread {
-    use super::super::Sensor;
-    use super::super::inbox::{Delivery, Inbox};
-    use super::OpcUaSource;
+    use super::{OpcUaSource, Sensor};
     use crate::clock::{Clock, RealClock};
     use crate::opcua::Client;
+    use crate::sensor::inbox::{Delivery, Inbox};
     use std::time::Duration;
 
-    /// Reads the nodes of one server in a thread of its own, as often as the most frequent of them.
-    ///
-    /// # Errors
-    /// What the system says.
-    pub fn read_nodes(sources: &[(usize, &OpcUaSource)]) -> std::io::Result<Vec<Box<dyn Sensor>>> {
-        let Some((_, first)) = sources.first() else { return Ok(Vec::new()) };
-        let client = Client::of(&first.server)?;
-        let mut inboxes: Vec<Box<dyn Sensor>> = Vec::new();
-        let mut asked = Vec::new();
+    /// One sensor for each node; all nodes of one server are read in one thread, as often as the most frequent of them.
+    pub fn read_nodes(sources: &[(usize, &OpcUaSource)]) -> Vec<Box<dyn Sensor>> {
+        let mut servers: Vec<Vec<(OpcUaSource, Delivery)>> = Vec::new();
+        let mut sensors: Vec<Box<dyn Sensor>> = Vec::new();
         for (sensor, source) in sources {
             let (inbox, delivery) = Inbox::of(*sensor);
-            inboxes.push(Box::new(inbox));
-            asked.push(((*source).clone(), delivery));
+            let asked = ((*source).clone(), delivery);
+            sensors.push(Box::new(inbox));
+            match servers.iter_mut().find(|nodes| nodes[0].0.server == source.server) {
+                Some(nodes) => nodes.push(asked),
+                None => servers.push(vec![asked]),
+            }
         }
-        std::thread::spawn(move || ask(client, &asked));
-        Ok(inboxes)
+        for nodes in servers {
+            std::thread::spawn(move || ask(&nodes));
+        }
+        sensors
     }
 
-    fn ask(mut client: Client, asked: &[(OpcUaSource, Delivery)]) {
+    fn ask(nodes: &[(OpcUaSource, Delivery)]) {
+        // Without a thread of its own the client has no session, and the sensors have no samples, which the governor sees.
+        let Ok(mut client) = Client::of(&nodes[0].0.server) else { return };
         let clock = RealClock::start();
-        let nodes: Vec<&str> = asked.iter().map(|(source, _)| source.node.as_str()).collect();
+        let names: Vec<&str> = nodes.iter().map(|(source, _)| source.node.as_str()).collect();
         let period_s =
-            asked.iter().map(|(source, _)| source.period_s).fold(f64::INFINITY, f64::min);
+            nodes.iter().map(|(source, _)| source.period_s).fold(f64::INFINITY, f64::min);
         loop {
             // A server that is away is asked again; what it does not say grows old.
-            if let Ok(said) = client.timed(&nodes, clock.now_s()) {
-                for ((source, delivery), said) in asked.iter().zip(said) {
+            if let Ok(said) = client.timed(&names, clock.now_s()) {
+                for ((source, delivery), said) in nodes.iter().zip(said) {
                     if !delivery.put(source.received(said)) {
                         return;
                     }
@@ -106,9 +129,6 @@ mod thread {
         }
     }
 }
-
-#[cfg(feature = "opcua")]
-pub use thread::read_nodes;
 
 #[cfg(test)]
 mod tests {
@@ -135,6 +155,18 @@ mod tests {
         assert_eq!(of(ValueTime::Source, Some(7.0)), due(Some(7.0)));
         assert_eq!(of(ValueTime::Source, None), due(None));
         assert_eq!(of(ValueTime::Read, Some(7.0)), due(Some(0.0)));
+    }
+
+    /// Servers whose time is that of an hour or of a century ago: only the difference counts.
+    #[test]
+    fn law_the_clocks_of_server_and_computer_need_not_agree() {
+        for server_s in [0.0, 3600.0, 3.1e9] {
+            assert_eq!(age_s(server_s, server_s - 7.0), 7.0);
+            // Whole seconds: it reads 0.9 s less than it is.
+            assert_eq!(age_s(server_s, server_s + 0.9), 0.0);
+            // A source of tomorrow is no fresh one.
+            assert_eq!(age_s(server_s, server_s + 86_400.0), -86_400.0);
+        }
     }
 
     #[test]
