@@ -67,7 +67,7 @@ stale = "{stale}"
 source = {source}
 """
 CONSTANT = '{{ constant = "{celsius} degC" }}'
-NODE = '{{ opc_ua = "opc.tcp://127.0.0.1:{port}", node = "ns={space};s=hall", security = "none", scale = 0.1, period = "500 ms"{more} }}'
+NODE = '{{ opc_ua = "opc.tcp://127.0.0.1:{port}", node = "ns={space};s={name}", security = "none", scale = 0.1, period = "500 ms"{more} }}'
 
 
 class Control:
@@ -87,13 +87,13 @@ class Control:
         self.space = words[1]
 
     def plan(self, security, login="", node=None):
-        """With a node, the scale of Y is measured by the server; `node` is what else is said of it."""
+        """With `node` the server measures both scales, in one session; it is what else is said of them."""
         text = PLAN.format(root=ROOT, port=self.port, security=security, login=login, space=self.space)
         text += "".join(AXIS.format(axis=axis) for axis in "XY")
         for name in ["scale_x", "scale_y", "workpiece"]:
             source, stale = CONSTANT.format(celsius=30.5 if name != "scale_y" else 31.2), "30 s"
-            if name == "scale_y" and node is not None:
-                source, stale = NODE.format(port=self.port, space=self.space, more=node), "3 s"
+            if name != "workpiece" and node is not None:
+                source, stale = NODE.format(port=self.port, space=self.space, name=name, more=node), "3 s"
             text += SENSOR.format(name=name, source=source, stale=stale)
         file = self.folder / "live.toml"
         file.write_text(text)
@@ -181,7 +181,7 @@ def main():
     check("an offset that may not be written is named", "offsetY" in text or "refuses what is written" in text, "" if "Hold" in text else text)
 
     control = Control(python, runs / "sensor")
-    whole(control, control.plan("none", node=""), "a node as a sensor")
+    whole(control, control.plan("none", node=""), "nodes as sensors")
     for fault, more, due in [("frozen", "", "is older than"), ("bad", "", "BadSensorFailure"), ("frozen", ', time = "read"', None)]:
         name = f"a sensor that is {fault}{' of a server that renews no times' if more else ''}"
         control = Control(python, runs / f"sensor-{fault}{'-read' if more else ''}", "--sensor", fault)

@@ -22,6 +22,7 @@ TIMEOUT_S = 1.0
 RAMP_MM_PER_S = 0.2
 # The temperature is sound for so long.
 SENSOR_S = 6.0
+TENTHS = {"scale_x": 305, "scale_y": 312}
 NUMBERS = {"X": 0.0, "Y": 0.0, "Z": 0.0, "offsetX": 0.0, "offsetY": 0.0}
 FLAGS = {"referenced": True, "running": True, "inhibit": False, "emergency": False, "tripped": False, "hold": False}
 
@@ -35,15 +36,15 @@ class Users(UserManager):
         return None
 
 
-async def measure(node, fault):
-    """Tenths of a degree; the time of the source is that of the writing."""
-    if fault == "frozen":
-        return
-    if fault == "bad":
-        await node.write_value(ua.DataValue(ua.Variant(312, ua.VariantType.Int16), ua.StatusCode(ua.StatusCodes.BadSensorFailure),
-                                            SourceTimestamp=datetime.datetime.now(datetime.timezone.utc)))
-    else:
-        await node.write_value(312, ua.VariantType.Int16)
+async def measure(nodes, fault):
+    """Tenths of a degree; the time of the source is that of the writing. Only the scale of Y fails."""
+    for name, tenths in TENTHS.items():
+        of_node = fault if name == "scale_y" else None
+        if of_node == "bad":
+            await nodes[name].write_value(ua.DataValue(ua.Variant(tenths, ua.VariantType.Int16), ua.StatusCode(ua.StatusCodes.BadSensorFailure),
+                                                       SourceTimestamp=datetime.datetime.now(datetime.timezone.utc)))
+        elif of_node != "frozen":
+            await nodes[name].write_value(tenths, ua.VariantType.Int16)
 
 
 async def main():
@@ -81,7 +82,8 @@ async def main():
         await add(name, value, ua.VariantType.Boolean)
     await add("mode", 2, ua.VariantType.Int16)
     await add("beat", 0, ua.VariantType.Byte)
-    await add("hall", 312, ua.VariantType.Int16)
+    for name, tenths in TENTHS.items():
+        await add(name, tenths, ua.VariantType.Int16)
     seen = dict(offsets=[], largest_step_mm=0.0, beats=0, tripped=0, largest_mm=[0.0, 0.0])
     ended = asyncio.Event()
     asyncio.get_running_loop().add_signal_handler(signal.SIGTERM, ended.set)
@@ -95,7 +97,7 @@ async def main():
             dt, before = now - before, now
             if now - measured > 0.5:
                 measured = now
-                await measure(nodes["hall"], options.sensor if now - begun > SENSOR_S else None)
+                await measure(nodes, options.sensor if now - begun > SENSOR_S else None)
             offsets = [await nodes[f"offset{axis}"].get_value() for axis in "XY"]
             new = await nodes["beat"].get_value()
             if new != beat:
