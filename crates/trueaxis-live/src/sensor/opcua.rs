@@ -66,7 +66,7 @@ impl OpcUaSource {
 
 /// How old a value is by the times of its server and of its source, s.
 ///
-/// A server may count whole seconds, so that its time is late by less than [`TICK_S`]; any more is a fault of a clock.
+/// A server may count whole seconds, so that its time is late by less than 2 s; any more is a fault of a clock.
 pub fn age_s(server_s: f64, source_s: f64) -> f64 {
     let age_s = server_s - source_s;
     if age_s > -TICK_S { age_s.max(0.0) } else { age_s }
