@@ -493,3 +493,60 @@ fn the_linear_model_is_what_the_laws_ask_for() {
     let (_, options, _) = Study::of(3).with(LINEAR.0, LINEAR.1).read().expect("a study");
     assert_eq!(options.model, Model::Linear);
 }
+
+/// A table of points on the ball of the example, 25 mm about the origin: directions, and how far each is off it, mm.
+fn ball_points(all: &[([f64; 3], f64)]) -> String {
+    let row = |([x, y, z], off): &([f64; 3], f64)| {
+        let r = 12.5 + *off;
+        format!("{:.9},{:.9},{:.9}\n", r * x, r * y, r * z)
+    };
+    "x_mm,y_mm,z_mm\n".to_owned() + &all.iter().map(row).collect::<String>()
+}
+
+/// Half of n points at the pole and half around it at the polar angle t determine the centre along z as points of a
+/// line do its slope: u(z) = 2u/((1 − cos t) √n). Ten times u is a centre, 25 times is none.
+#[test]
+fn a_centre_is_less_certain_the_flatter_the_cap() {
+    let study = Study::of(17);
+    for (times, is_ball) in [(10.0_f64, true), (25.0, false)] {
+        let cos = 1.0 - 2.0 / (times * 12f64.sqrt());
+        let sin = (1.0 - cos * cos).sqrt();
+        let point = |k: u32| {
+            let (s, c) = (f64::from(k) * std::f64::consts::FRAC_PI_3).sin_cos();
+            (if k < 6 { [0.0, 0.0, 1.0] } else { [sin * c, sin * s, cos] }, 0.0)
+        };
+        let all: Vec<([f64; 3], f64)> = (0..12).map(point).collect();
+        match study.with_table("procedure-ball.csv", ball_points(&all)).read() {
+            Ok(_) => assert!(is_ball, "{times}"),
+            Err(problems) => {
+                let cap = problems.iter().find(|d| d.code == "no-sphere");
+                let message = &cap.unwrap_or_else(|| panic!("{problems:?}")).message;
+                assert!(!is_ball && message.contains(" 25 times less sure"), "{times}: {message}");
+            }
+        }
+    }
+}
+
+/// Points that scatter more than is stated of them count with their scatter, others with what is stated. The six poles,
+/// +a +a −a −a 0 0 off the ball: s² = 4a²/(6 − 4), V(x) = u²/2 + u(seat)².
+#[test]
+fn the_larger_of_scatter_and_statement_counts() {
+    let study = Study::of(18);
+    for (a, u_point) in [(0.005_f64, 0.005 * 2f64.sqrt()), (0.0, 0.0006)] {
+        let all = [
+            ([1.0, 0.0, 0.0], a),
+            ([-1.0, 0.0, 0.0], a),
+            ([0.0, 1.0, 0.0], -a),
+            ([0.0, -1.0, 0.0], -a),
+            ([0.0, 0.0, 1.0], 0.0),
+            ([0.0, 0.0, -1.0], 0.0),
+        ];
+        let read = study.with_table("procedure-ball.csv", ball_points(&all)).read();
+        let (_, _, records) = read.unwrap_or_else(|p| panic!("{p:?}"));
+        let known = &records.calibrated[1].known;
+        let k = known.names.iter().position(|n| n == "probe.ball_x").expect("an unknown");
+        let (u, seat) = (known.normal[(k, k)].sqrt().recip(), 0.0015_f64);
+        let expected = (0.5 * u_point * u_point + seat * seat).sqrt();
+        assert!((u / expected - 1.0).abs() < 1e-4, "{a}: {u} {expected}");
+    }
+}

@@ -3,7 +3,7 @@
 mod command;
 
 use command::{Folder, trueaxis};
-use std::fs::{read_to_string, write};
+use std::fs::{create_dir, read_to_string, write};
 
 const CAMPAIGN: &str = "examples/04_plan/touch-probe-5-minutes.toml";
 
@@ -83,13 +83,12 @@ fn nothing_that_a_person_has_made_is_overwritten() {
         assert_eq!(read_to_string(&path).expect(name), edited, "{name}");
         write(&path, &before).expect(name);
     }
-    // The campaign itself stands there under this name.
-    let campaign = folder.file("campaign.toml", read_to_string(&campaign).expect("a campaign"));
-    write(
-        folder.path("01-chosen.csv"),
-        read_to_string(folder.path("d/01-chosen.csv")).expect("it"),
-    )
-    .expect("poses");
-    let ran = trueaxis(&["plan", &campaign, "-o", &folder.path("")]);
+    // The campaign itself stands there under this name; as deep as the first, since it names the machine from there.
+    let text = read_to_string(&campaign).expect("a campaign");
+    create_dir(folder.path("e")).expect("a folder");
+    let campaign = folder.file("e/campaign.toml", text);
+    let poses = read_to_string(folder.path("d/01-chosen.csv")).expect("it");
+    write(folder.path("e/01-chosen.csv"), poses).expect("poses");
+    let ran = trueaxis(&["plan", &campaign, "-o", &folder.path("e")]);
     assert!(ran.status == 2 && ran.err.contains("unwritable-file"), "{}", ran.err);
 }

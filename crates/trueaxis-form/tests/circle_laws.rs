@@ -223,3 +223,37 @@ proptest! {
         prop_assert!((0..2).all(|i| (found.center_mm[i] - centre[i]).abs() < 1e-8), "{:?}", found);
     }
 }
+
+/// Two points opposite each other, and between them two ends: the circle goes to the end with more room. Above, all points
+/// lie on or outside of the circle through (±10, 0) about (0, up), below of that about (0, −down): r = √(10² + down²).
+/// Straight below there is no point, so that the contact of that end lies 22° to the side of the way there.
+#[test]
+fn law_a_lens_holds_the_circle_of_its_wider_end() {
+    let a = 10.0_f64;
+    for (up, down) in [(0.4, 0.5), (0.45, 0.55)] {
+        let at = |height: f64, degrees: f64, outside: f64| {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            let reach = height * sin + ((height * sin).powi(2) + a * a).sqrt() + outside;
+            [reach * cos, reach * sin]
+        };
+        let below = |degrees: f64, outside: f64| {
+            let [x, y] = at(down, degrees, outside);
+            [x, -y]
+        };
+        let ring: Vec<f64> = (0..16).map(|i| (f64::from(i) + 0.5) * 11.25).collect();
+        let mut points = vec![[a, 0.0], [-a, 0.0], at(up, 95.625, 0.0)];
+        points.extend(ring.iter().filter(|d| (**d - 95.625).abs() > 1.0).map(|d| at(up, *d, 0.1)));
+        points.extend([below(68.0, 0.0), below(114.2, 0.1)]);
+        points.extend(ring.iter().filter(|d| (**d - 90.0).abs() > 28.6).map(|d| below(*d, 0.1)));
+        for turn in 0..8 {
+            let (sin, cos) = (TAU * f64::from(turn) / 8.0).sin_cos();
+            let turned: Points =
+                points.iter().map(|p| [cos * p[0] - sin * p[1], sin * p[0] + cos * p[1]]).collect();
+            let found = Fitter::default().all(&turned).expect("circles").mic;
+            let off = found.radius_mm - a.hypot(down);
+            assert!(off.abs() < 1e-9, "{turn}/8 of a turn: {off} mm");
+            let centre = [down * sin, -down * cos];
+            assert!((0..2).all(|i| (found.center_mm[i] - centre[i]).abs() < 1e-8), "{found:?}");
+        }
+    }
+}

@@ -309,3 +309,64 @@ fn moves_after_shapes_begin_where_these_end() {
         assert!(found, "{control:?} {ends:?}");
     }
 }
+
+/// A circle about the tool axis and a hole along it are an arc and a cycle on a table that stands inclined.
+#[test]
+fn shapes_on_a_standing_table_are_written_as_shapes() {
+    let engraver = machine("i5-engraver");
+    let hole = Asked {
+        place: [5.0, 5.0],
+        height: 0.0,
+        depth: 5.0,
+        clearance: 2.0,
+        above: 3.0,
+        pecks: None,
+        dwell: 0.0,
+        same: false,
+    };
+    for tilt in [0.2_f64, 0.5] {
+        let (sin, cos) = tilt.sin_cos();
+        let frame = [[1.0, 0.0, 0.0], [0.0, cos, sin], [0.0, -sin, cos]];
+        let text = file(&[(2.0, 10.0, true, 0.0)], std::slice::from_ref(&hole), frame, 1.0);
+        for control in [Fanuc, Sinumerik840d] {
+            let posted = proved(&engraver, &text, &options(control, None));
+            assert_eq!([posted.arcs, posted.holes()], [1, 1], "{control:?} {tilt}");
+        }
+    }
+}
+
+/// With tool-centre point a circle about Z of the workpiece stays one while the tool leans, on FANUC (A-79348E) only where
+/// the table stands as it did when G43.4 began.
+#[test]
+fn an_arc_of_fanuc_needs_the_table_where_it_was() {
+    let engraver = machine("i5-engraver");
+    let leans = "0,-0.5,0.866025403784";
+    for (first, arcs_of_fanuc) in [(leans, 1), ("0,0,1", 0)] {
+        let text = format!(
+            "UNITS/MM\nMULTAX/ON\nFEDRAT/600\nGOTO/10,0,20,{first}\nGOTO/10,0,0,{leans}\n\
+             CIRCLE/0,0,0,0,0,1,10\nGOTO/0,10,0,{leans}\nFINI\n"
+        );
+        for (control, wanted) in [(Fanuc, arcs_of_fanuc), (Sinumerik840d, 1)] {
+            let posted = proved(&engraver, &text, &options(control, Some(TipWords::Angles)));
+            assert_eq!(posted.arcs, wanted, "{control:?} from {first}");
+        }
+    }
+}
+
+/// Controls calculate with radii up to 10 m: a flatter circle is lines. Over 200 mm both bulge by half a millimetre.
+#[test]
+fn a_circle_of_more_than_ten_metres_is_lines() {
+    let mill = machine("three-axis-mill");
+    for (radius, arcs) in [(9_990.0_f64, 1), (10_010.0, 0)] {
+        let below = (radius * radius - 100.0 * 100.0).sqrt();
+        let text = format!(
+            "UNITS/MM\nFEDRAT/600\nRAPID\nGOTO/-100,0,5\nGOTO/-100,0,0\n\
+             CIRCLE/0,{:.7},0,0,0,-1,{radius}\nGOTO/100,0,0\nFINI\n",
+            -below
+        );
+        for control in CONTROLS {
+            let posted = proved(&mill, &text, &options(control, Some(TipWords::Length)));
+            assert_eq!(posted.arcs, arcs, "{control:?} {radius}");
+        }
+    }
+}

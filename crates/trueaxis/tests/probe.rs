@@ -12,11 +12,11 @@ use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::identify::probe::{
     Calibration, Fit, Free, GaugeKind, Lobing, LobingModel, Purpose, Sample, Side, Study, fit,
-    identify_probe, read_study,
+    identify_probe, read_study, turned,
 };
 use trueaxis::input::Diagnostics;
 use trueaxis::report::{ProbeDocument, document, probe_report, probe_table_csv};
-use virtual_probe::{VirtualProbe, even};
+use virtual_probe::{BALL_MM, RADIUS_MM, VirtualProbe, even};
 
 fn expected() -> Value {
     let path = root().join("crates/trueaxis/tests/data/probe.json");
@@ -184,4 +184,48 @@ fn several_styli_have_their_own_results() {
     assert_eq!(study.gauge.side, Side::Outside);
     let offsets: Vec<f64> = found.iter().map(|f| f.fit.offset_mm.x * 1e3).collect();
     assert!((offsets[0] - 3.5).abs() < 0.5 && (offsets[1] - 20.0).abs() < 0.5, "{offsets:?}");
+}
+
+/// Hits crowd about ±X and determine x better than y; turned by 90° with the probe they determine y as x before.
+#[test]
+fn uncertainties_of_the_offset_turn_with_the_hits() {
+    let crowd = even(90, 0.01).into_iter().filter(|u| u.x.abs() > 0.9);
+    let directions: Vec<Vec3> = even(24, 0.0).into_iter().chain(crowd).collect();
+    let travel = |u: Vec3| 0.015 + 0.008 * (3.0 * u.y.atan2(u.x)).cos();
+    let u_mm = |turn: f64| {
+        let seen = |u: Vec3| travel(turned(u, -turn));
+        let offset_mm = turned(Vec3::new(0.004, -0.003, 0.0), turn);
+        let probe =
+            VirtualProbe { travel: &seen, offset_mm, noise_mm: 1e-3, ..VirtualProbe::default() };
+        let mut study = probe.study(directions.iter().map(|u| turned(*u, turn)).collect());
+        study.most_harmonics = 3;
+        calibrated(&study)[0].offset.expect("an offset").u_mm
+    };
+    let (here, there) = (u_mm(0.0), u_mm(std::f64::consts::FRAC_PI_2));
+    assert!(here.x < 0.8 * here.y, "{here:?}");
+    let alike = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-6;
+    assert!(alike(here.x, there.y) && alike(here.y, there.x), "{here:?} {there:?}");
+}
+
+/// Hits at the wrong distance are in another unit where a factor of units says so, and on a gauge of another size
+/// anywhere else, be it larger or smaller than stated.
+#[test]
+fn a_gauge_of_another_size_is_no_other_unit() {
+    let distance_mm = RADIUS_MM - BALL_MM;
+    for (due_mm, code, word) in [
+        (1.2 * distance_mm, "wrong-size", "check diameter"),
+        (0.75 * distance_mm, "wrong-size", "check diameter"),
+        (2.0 * distance_mm, "wrong-size", "radius and diameter"),
+        (0.5 * distance_mm, "wrong-size", "radius and diameter"),
+        (25.4 * distance_mm, "wrong-unit", "inches"),
+        (distance_mm / 25.4, "wrong-unit", "the heading right"),
+        (1e3 * distance_mm, "wrong-unit", "the heading right"),
+    ] {
+        let mut study = VirtualProbe::default().study(even(24, 0.0));
+        study.gauge.radius_mm = due_mm + BALL_MM;
+        let mut problems = Diagnostics::new();
+        assert!(identify_probe(&study, &mut problems).is_none());
+        let found = problems.iter().next().expect("an error");
+        assert!(found.code == code && found.hint.contains(word), "{due_mm}: {found:?}");
+    }
 }

@@ -6,13 +6,16 @@ use library::{MACHINES, Random, bare, machine};
 use std::path::PathBuf;
 use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
+use trueaxis::input::Place;
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{AxisKind, Command, MAX_AXES, Travel};
 use trueaxis::machine::errors::{ErrorIndex, ErrorName, StatedError};
 use trueaxis::measure::instrument::{Instrument, SetupError, SetupUnknown};
 use trueaxis::measure::path::{Path, station};
+use trueaxis::measure::stages::{BallStage, Stage};
 use trueaxis::measure::virtual_campaign::{
-    AxisDisturb, Disturb, Drawn, Measurement, Truth, VirtualCampaign, measure, summarise,
+    AxisDisturb, Disturb, Drawn, Measurement, Truth, VirtualCampaign, measure, stage_tables,
+    summarise,
 };
 use trueaxis::measure::{Campaign, Kind, Readings};
 use trueaxis::verify::compare::{Comparison, ComparisonBasis, Decision, Rule, compare, pair};
@@ -495,4 +498,56 @@ fn law_two_sets_of_the_same_machine_agree_and_lost_rows_are_left_out() {
     let found = compare(&comparison(&campaign, first, ComparisonBasis::Readings(Box::new(pairs))))
         .expect("readings");
     assert!(!found.coverage.is_enough());
+}
+
+/// A stage with points on a ball of 20 mm, each without an uncertainty of its own.
+fn ball_stage(seat_u_mm: f64) -> Stage {
+    let ball = BallStage {
+        instrument: 0,
+        table: PathBuf::from("ball.csv"),
+        u_mm: 0.0,
+        seat_u_mm,
+        diameter_mm: Some((20.0, 0.0)),
+        count: 12,
+    };
+    Stage {
+        name: "ball".to_owned(),
+        place: Place::whole("test.toml"),
+        date: None,
+        instruments: vec![0],
+        zero: None,
+        ball: Some(ball),
+        values: Vec::new(),
+        with: Vec::new(),
+    }
+}
+
+/// A ball on a coordinate measuring machine lies off its stated place by its seat: all points alike, by nothing where
+/// the seat is exact, and over many balls with the stated scatter.
+#[test]
+fn law_a_ball_lies_off_by_its_seat() {
+    let machine = bare("lei-hsu-mill");
+    let mut campaign = campaign(&machine, instrument(Kind::ProbeBall, &machine));
+    let mut real = real(&campaign, &machine, path(&campaign, &[], None));
+    real.disturb.noise = 1.0;
+    let mut off = |seat_u_mm: f64, seed: u64| {
+        let stage = ball_stage(seat_u_mm);
+        let directions = stage.ball.as_ref().expect("a ball").directions();
+        (campaign.stages.list, real.truth.seed) = (vec![stage], seed);
+        let tables = stage_tables(&campaign, &real);
+        let centre = campaign.instruments[0].reference_point_mm;
+        let rows = tables[0].1.lines().skip(1).zip(&directions).map(|(line, n)| {
+            let p: Vec<f64> = line.split(',').map(|v| v.parse().expect("a number")).collect();
+            Vec3::new(p[0], p[1], p[2]) - centre - n * 10.0
+        });
+        let rows: Vec<Vec3> = rows.collect();
+        assert_eq!(rows.len(), 12);
+        // Six decimals are printed.
+        assert!(rows.iter().all(|row| (row - rows[0]).norm() < 3e-6), "{rows:?}");
+        rows[0]
+    };
+    assert!(off(0.0, 1).norm() < 2e-6);
+    let chi_square: f64 = (0..400).map(|seed| (off(0.004, seed) / 0.004).norm_squared()).sum();
+    // χ² of 1200 numbers: ± 4 √2400.
+    assert!((chi_square - 1200.0).abs() < 196.0, "{chi_square}");
 }

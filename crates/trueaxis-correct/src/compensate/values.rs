@@ -115,7 +115,7 @@ pub fn travel_positions(axis: &Axis, step: f64) -> Option<Vec<f64>> {
         Travel::Unknown => return None,
     };
     let steps = (to - from) / step;
-    if !(0.0..MOST_POSITIONS as f64 - 1.0).contains(&steps) {
+    if !(0.0..=MOST_POSITIONS as f64 - 1.0).contains(&steps) {
         return None;
     }
     // A step that ends within a billionth of the travel ends there.
