@@ -315,6 +315,13 @@ export type Reason =
       what: string;
     }
   | {
+      kind: "setup";
+      /**
+       * Its number.
+       */
+      number: number;
+    }
+  | {
       kind: "not-finite";
     }
   | {
@@ -7702,12 +7709,13 @@ export interface ExpectedAxis {
    */
   by_age: number;
   /**
-   * Of it: whole increments and the dead band. Unit: that of `unit`.
+   * Of it: whole increments and the dead band; where the control corrects along a line, what a line leaves besides. Unit: that
+   * of `unit`.
    */
   by_increment: number;
   /**
-   * More while the axis moves at its largest velocity: velocity × slope × age of the position; null where the machine
-   * file states no velocity. Unit: that of `unit`.
+   * More while the axis moves at its largest velocity: velocity × slope × age of the position; nothing where the control
+   * corrects along a line, null where the machine file states no velocity. Unit: that of `unit`.
    */
   moving: number | null;
   /**
@@ -8120,6 +8128,10 @@ export interface LiveState {
    * The part whose record is filled; null without one.
    */
   part: string | null;
+  /**
+   * The number of the setup that is in the machine; null where the control does not say.
+   */
+  setup: number | null;
   /**
    * Cycles so far.
    */

@@ -33,7 +33,7 @@ identity = {{ kind = "Maker", series = "Control", version = "1.0" }}
 [control.nodes]
 position = {{ X = "ns={space};s=X", Y = "ns={space};s=Y", Z = "ns={space};s=Z" }}
 offset = {{ X = "ns={space};s=offsetX", Y = "ns={space};s=offsetY" }}
-referenced = "ns={space};s=referenced"
+{line}referenced = "ns={space};s=referenced"
 inhibit = "ns={space};s=inhibit"
 running = "ns={space};s=running"
 mode = "ns={space};s=mode"
@@ -66,6 +66,9 @@ rate_k_per_min = 5
 stale = "{stale}"
 source = {source}
 """
+LINE = '''slope = {{ X = "ns={space};s=slopeX" }}
+reference = {{ X = "ns={space};s=referenceX" }}
+'''
 CONSTANT = '{{ constant = "{celsius} degC" }}'
 NODE = '{{ opc_ua = "opc.tcp://127.0.0.1:{port}", node = "ns={space};s={name}", security = "none", scale = 0.1, period = "500 ms"{more} }}'
 
@@ -86,9 +89,12 @@ class Control:
             sys.exit(f"the server did not start: {folder / 'server.log'}")
         self.space = words[1]
 
-    def plan(self, security, login="", node=None):
-        """With `node` the server measures both scales, in one session; it is what else is said of them."""
-        text = PLAN.format(root=ROOT, port=self.port, security=security, login=login, space=self.space)
+    def plan(self, security, login="", node=None, line=False):
+        """With `node` the server measures both scales, in one session; it is what else is said of them. With `line` it corrects X by itself."""
+        line = LINE.format(space=self.space) if line else ""
+        text = PLAN.format(root=ROOT, port=self.port, security=security, login=login, space=self.space, line=line)
+        if line:
+            text = text.replace('of = "comprehensive"', 'of = "comprehensive"\npart = "thermal"')
         text += "".join(AXIS.format(axis=axis) for axis in "XY")
         for name in ["scale_x", "scale_y", "workpiece"]:
             source, stale = CONSTANT.format(celsius=30.5 if name != "scale_y" else 31.2), "30 s"
@@ -191,6 +197,16 @@ def main():
         off_um = [1e3 * abs(most - due_mm) for most, due_mm in zip(seen["largest_mm"], DUE_MM)]
         held = "Hold:" in text and due is not None and due in text
         check(f"{name}: {'holds what acts' if due else 'follows'}", (held if due else "Hold:" not in text) and max(off_um) < 1.6, "" if held == bool(due) else text)
+
+    # Temperatures alone, by hand: 13.2 * 10.5 - 10.8 * 2.1 = 115.92 um/m of X, so 405.7 um at 3500 mm.
+    control = Control(python, runs / "line")
+    run = live(trueaxis, control.plan("none", line=True), 14)
+    text, _ = run.communicate(timeout=60)
+    seen = control.end()
+    off_um = 1e3 * abs(seen["largest_mm"][0] - 0.4057)
+    good = run.returncode == 0 and off_um < 1.6 and abs(1e6 * seen["slope"] - 115.92) < 0.5
+    check("a line along X: 115.9 um/m, 405.7 um at 3500 mm", good, f"{1e6 * seen['slope']:.2f} um/m, off by {off_um:.2f} um" if good else text)
+    check("a line along X: back to 0 at the end", abs(seen["offsets"][0]) < 1e-6, str(seen["offsets"]))
 
     os.sync()
     print(f"{len(failed)} checks failed" if failed else "all checks passed")

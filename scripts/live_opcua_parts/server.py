@@ -23,7 +23,7 @@ RAMP_MM_PER_S = 0.2
 # The temperature is sound for so long.
 SENSOR_S = 6.0
 TENTHS = {"scale_x": 305, "scale_y": 312}
-NUMBERS = {"X": 0.0, "Y": 0.0, "Z": 0.0, "offsetX": 0.0, "offsetY": 0.0}
+NUMBERS = {"X": 0.0, "Y": 0.0, "Z": 0.0, "offsetX": 0.0, "offsetY": 0.0, "slopeX": 0.0, "referenceX": 1200.0}
 FLAGS = {"referenced": True, "running": True, "inhibit": False, "emergency": False, "tripped": False, "hold": False}
 
 
@@ -84,7 +84,7 @@ async def main():
     await add("beat", 0, ua.VariantType.Byte)
     for name, tenths in TENTHS.items():
         await add(name, tenths, ua.VariantType.Int16)
-    seen = dict(offsets=[], largest_step_mm=0.0, beats=0, tripped=0, largest_mm=[0.0, 0.0])
+    seen = dict(offsets=[], largest_step_mm=0.0, beats=0, tripped=0, largest_mm=[0.0, 0.0], slope=0.0)
     ended = asyncio.Event()
     asyncio.get_running_loop().add_signal_handler(signal.SIGTERM, ended.set)
     async with server:
@@ -99,6 +99,8 @@ async def main():
                 measured = now
                 await measure(nodes, options.sensor if now - begun > SENSOR_S else None)
             offsets = [await nodes[f"offset{axis}"].get_value() for axis in "XY"]
+            slope, reference = [await nodes[name].get_value() for name in ("slopeX", "referenceX")]
+            seen["slope"] = max(seen["slope"], slope, key=abs)
             new = await nodes["beat"].get_value()
             if new != beat:
                 beat, beat_at = new, now
@@ -107,11 +109,14 @@ async def main():
             if tripped:
                 seen["tripped"] += 1
                 step = RAMP_MM_PER_S * dt
+                slope = 0.0
+                await nodes["slopeX"].write_value(slope)
                 offsets = [max(0.0, o - step) if o > 0.0 else min(0.0, o + step) for o in offsets]
                 for axis, offset in zip("XY", offsets):
                     await nodes[f"offset{axis}"].write_value(offset)
             await nodes["tripped"].write_value(tripped)
-            for i, (axis, offset) in enumerate(zip("XYZ", [*offsets, 0.0])):
+            along = slope * (options.at[0] - reference)
+            for i, (axis, offset) in enumerate(zip("XYZ", [offsets[0] + along, offsets[1], 0.0])):
                 await nodes[axis].write_value(options.at[i] + offset)
                 if i < 2 and offset != last[i]:
                     if not tripped:

@@ -57,6 +57,7 @@ impl Control for Moving {
             tool_length_mm: None,
             standing_tip_mm: None,
             block: None,
+            setup: None,
         })
     }
 

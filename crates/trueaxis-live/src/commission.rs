@@ -11,6 +11,7 @@ use crate::session::{Opened, Stopped, is_gone, open, own_mock, refused, unusable
 use crate::start::{owner, sensors_of};
 use crate::status::folder_of;
 use crate::store::DiskStore;
+use std::ops::Range;
 use std::path::PathBuf;
 use trueaxis::input::{Diagnostics, Files, Place};
 
@@ -76,13 +77,14 @@ pub fn commission(
     let opened = DiskStore::open(&folder, &owner(&plan, &identity));
     let (store, owned) = opened.map_err(|fault| unusable(&folder, &fault, problems.clone()))?;
     let owned = held.or(owned).filter(|_| mock.is_none());
-    let mut target = vec![0.0; plan.axes.len()];
-    // As a person would type it at the control: `sign` is what is tried.
-    target[live] = asked.by / plan.axes[live].increment;
-    let slew_s = (target[live] / plan.axes[live].limits.slew_per_s).abs();
+    let mut target = vec![0.0; plan.settings.axes.len()];
+    // As a person would type it at the control: `sign` is what is tried. Of a line both ends: the same all along the axis.
+    let due = asked.by / plan.axes[live].increment;
+    let places = plan.places(live);
+    target[places.clone()].fill(due);
+    let slew_s = (due / plan.axes[live].limits.slew_per_s).abs();
     let run = Run::new(&plan, owned, control, sensors_of(&plan), store).with_target(target.clone());
-    let tried =
-        drive((run, &plan), (&clock, stopped), (live, target[live].round()), (slew_s, tell, said));
+    let tried = drive((run, &plan), (&clock, stopped), (places, due.round()), (slew_s, tell, said));
     Ok((plan, tried))
 }
 
@@ -111,7 +113,7 @@ fn axis_of(
 fn drive(
     (mut run, plan): (Run<'_>, &Plan),
     (clock, stopped): (&RealClock, Stopped<'_>),
-    (live, due): (usize, f64),
+    (places, due): (Range<usize>, f64),
     (slew_s, tell, said): (f64, Steps<'_>, Said<'_>),
 ) -> Tried {
     let (mut stands, mut found) = (false, None);
@@ -139,7 +141,7 @@ fn drive(
                 None => {}
             }
             ending = found.is_some().then_some(now_s);
-        } else if is_there(&cycle, order.state, (live, due, &mut before)) {
+        } else if is_there(&cycle, order.state, (&places, due, &mut before)) {
             stands = true;
             tell(Step::Stands);
         } else if now_s > slew_s + MOST_WAIT_S {
@@ -153,14 +155,16 @@ fn drive(
 fn is_there(
     cycle: &crate::run::Cycle,
     state: State,
-    (live, due, before): (usize, f64, &mut Vec<f64>),
+    (places, due, before): (&Range<usize>, f64, &mut Vec<f64>),
 ) -> bool {
     let Ok(seen) = &cycle.input.seen else { return false };
     let acting = seen.acting.as_ref().unwrap_or(&seen.offsets);
     let stands = std::mem::replace(before, seen.positions.clone()) == seen.positions;
     state == State::Run
         && stands
-        && acting.get(live).is_some_and(|held| (f64::from(*held) - due).abs() < 0.5)
+        && acting
+            .get(places.clone())
+            .is_some_and(|all| all.iter().all(|held| (f64::from(*held) - due).abs() < 0.5))
 }
 
 /// How much of what was written to an axis it has moved, in the direction that its `sign` says: 1 is right.

@@ -98,6 +98,9 @@ pub struct Seen {
     /// The block that is executed; none where it does not say.
     #[serde(default)]
     pub block: Option<Block>,
+    /// The number of the setup that is in the machine; none where it does not say.
+    #[serde(default)]
+    pub setup: Option<i32>,
 }
 
 /// What is sent in one cycle.

@@ -9,6 +9,7 @@ use crate::memory::HeatOfRun;
 use crate::model::{LiveAxis, Model, Target};
 use crate::pose::Frame;
 use crate::sensor::{Judged, Sample, Watch};
+use crate::setups::Setups;
 use serde::{Deserialize, Serialize};
 use trueaxis::machine::axis::Command;
 use trueaxis::machine::heat::ThermalMemory;
@@ -75,6 +76,7 @@ pub struct Correction {
     constant: Option<Vec<f64>>,
     /// The zero of the part that the plan knows of.
     planned: Option<Datum>,
+    setups: Setups,
     /// Where the program stood in the last cycle.
     stood: Option<Command>,
     /// What acts, and since when, s.
@@ -91,6 +93,7 @@ impl Correction {
             axis: axis.axis,
             increment: axis.increment,
             sign: axis.sign,
+            line: axis.line,
         };
         let axes = plan.axes.iter().map(live).collect();
         let model = Model::new(plan.machine.clone(), plan.of, plan.part, axes);
@@ -106,6 +109,7 @@ impl Correction {
             last_s: None,
             constant: None,
             planned: None,
+            setups: Setups::default(),
             stood: None,
             acts: None,
             before: None,
@@ -157,6 +161,11 @@ impl Correction {
         self.model.datum()
     }
 
+    /// The zeros of all setups.
+    pub fn setups(&self) -> &Setups {
+        &self.setups
+    }
+
     /// The sensors.
     pub fn watch(&self) -> &Watch {
         &self.watch
@@ -182,11 +191,15 @@ impl Correction {
             self.model.remember(memory.clone().into());
         }
         let warm = known.and_then(|()| self.warm(now_s, &sensors));
+        self.show_setup(seen.and_then(|seen| seen.setup));
         let asked = input.datum.as_ref();
         let datum = asked.map(|order| self.order_datum(order, &warm, (seen, programmed.as_ref())));
         let target = match &self.constant {
-            Some(offsets) => Ok(Target { offsets: offsets.clone(), is_clamped: false }),
-            None => warm.and_then(|()| self.target(frame, programmed.as_ref())),
+            Some(offsets) => Ok(Target::constant(offsets)),
+            None => warm.and_then(|()| match self.setups.fault() {
+                Some(reason) => Err(reason),
+                None => self.target(frame, programmed.as_ref()),
+            }),
         };
         let lost = |fault: &LinkFault| Reason::LinkLost { what: fault.to_string() };
         let order = self.governor.step(
@@ -215,19 +228,43 @@ impl Correction {
         warm: &Result<(), Reason>,
         (seen, programmed): (Option<&Seen>, Option<&Command>),
     ) -> DatumOutcome {
-        let datum = match order {
-            DatumOrder::Clear => self.planned.clone(),
-            DatumOrder::Set(datum) if datum.missing.len() == self.model.axes().len() => {
-                Some(datum.clone())
+        let axes = self.model.axes().len();
+        let fits = |datum: &Datum| datum.missing.len() == axes;
+        let other = || -> DatumOutcome { Err("it is of other axes".to_owned()) };
+        match order {
+            DatumOrder::Clear => self.setups.clear_to(self.planned.clone()),
+            DatumOrder::Set(datum) if !fits(datum) => return other(),
+            DatumOrder::Set(datum) => self.setups.take(Some(datum.clone())),
+            DatumOrder::Kept(all) if !all.iter().flat_map(|s| &s.datum).all(fits) => {
+                return other();
             }
-            DatumOrder::Set(_) => return Err("it is of other axes".to_owned()),
-            DatumOrder::Take => Some(self.take_datum(warm, (seen, programmed))?),
-        };
-        self.model.set_datum(datum.clone());
-        // Another zero is no jump of the machine, and no speed of the target: the offsets go there by their slew.
+            DatumOrder::Kept(all) => {
+                self.setups = Setups::of(all.clone());
+                self.show_setup(seen.and_then(|seen| seen.setup));
+            }
+            DatumOrder::Take => {
+                let taken = self.take_datum(warm, (seen, programmed))?;
+                self.setups.take(Some(taken));
+            }
+        }
+        self.count_from_zero();
+        Ok(self.model.datum().cloned())
+    }
+
+    /// Another setup in the machine has another zero.
+    fn show_setup(&mut self, number: Option<i32>) {
+        if self.setups.show(number, self.planned.as_ref()) {
+            self.count_from_zero();
+        }
+    }
+
+    /// Another zero is no jump of the machine, and no speed of the target: the offsets go there by their slew.
+    fn count_from_zero(&mut self) {
+        let has_own = !self.setups.known().is_empty();
+        let datum = if has_own { self.setups.datum() } else { self.planned.as_ref() };
+        self.model.set_datum(datum.cloned());
         self.governor.forget_target();
         self.before = None;
-        Ok(datum)
     }
 
     fn take_datum(
@@ -265,6 +302,11 @@ impl Correction {
         let acting = seen.acting.as_ref().unwrap_or(&seen.offsets);
         let base = self.governor.owned().base;
         acting.iter().zip(base).map(|(acts, base)| acts.saturating_sub(base)).collect()
+    }
+
+    /// The same of each live axis at a position. Unit: counts.
+    pub fn acting_at(&self, seen: &Seen, at: &Command) -> Vec<f64> {
+        self.model.at_position(self.acting(seen).into_iter().map(f64::from), at).collect()
     }
 
     fn lag(&mut self, dt_s: f64, (frame, target): (Frame, Option<&Target>)) -> Option<Vec<f64>> {

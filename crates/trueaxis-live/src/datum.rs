@@ -13,6 +13,7 @@
 use crate::governor::Reason;
 use crate::model::Model;
 use crate::pose::Frame;
+use crate::setups::SetupDatum;
 use serde::{Deserialize, Serialize};
 use trueaxis::machine::axis::Command;
 
@@ -30,8 +31,10 @@ pub struct Datum {
 pub enum DatumOrder {
     /// The zero is being touched now.
     Take,
-    /// It was touched earlier, or is known from the plan.
+    /// It was touched earlier.
     Set(Datum),
+    /// Those that an earlier run has left, of all setups.
+    Kept(Vec<SetupDatum>),
     /// What was touched in a run counts no more: that of the plan, or none.
     Clear,
 }
@@ -57,7 +60,7 @@ pub struct Touch<'a> {
 pub fn touched(model: &mut Model, touch: &Touch<'_>) -> Result<Datum, Reason> {
     model.set_datum(None);
     let whole = model.target(touch.frame, touch.at)?;
-    let missing: Vec<f64> =
-        whole.offsets.iter().zip(touch.own).map(|(t, own)| t - f64::from(*own)).collect();
+    let own = model.at_position(touch.own.iter().map(|n| f64::from(*n)), touch.at);
+    let missing: Vec<f64> = whole.here.iter().zip(own).map(|(t, own)| t - own).collect();
     Ok(model.datum_of(touch.frame, touch.at, &missing))
 }

@@ -15,6 +15,7 @@ pub use poses::{ExpectedOffset, ExpectedPoses};
 
 use crate::cycle::AGE_PERIODS;
 use crate::file::{AxisPlan, Plan, SensorPlan, Source, read_plan};
+use crate::line::Line;
 use crate::model::{LiveAxis, Model, at, remembered};
 use losses::{Day, HOUR_S, TEN_MINUTES_S};
 use schemars::JsonSchema;
@@ -83,10 +84,11 @@ pub struct ExpectedAxis {
     pub after: f64,
     /// Of it: the temperatures have changed since the last sample. Unit: that of `unit`.
     pub by_age: f64,
-    /// Of it: whole increments and the dead band. Unit: that of `unit`.
+    /// Of it: whole increments and the dead band; where the control corrects along a line, what a line leaves besides. Unit: that
+    /// of `unit`.
     pub by_increment: f64,
-    /// More while the axis moves at its largest velocity: velocity × slope × age of the position; null where the machine
-    /// file states no velocity. Unit: that of `unit`.
+    /// More while the axis moves at its largest velocity: velocity × slope × age of the position; nothing where the control
+    /// corrects along a line, null where the machine file states no velocity. Unit: that of `unit`.
     pub moving: Option<f64>,
     /// How fast the offset must change then, in the unit per second; null as above. Unit: that of `unit`.
     pub needed_per_s: Option<f64>,
@@ -217,7 +219,7 @@ pub fn expect(
         let row = row(plan, &model, (&mut heat, i), &places)?;
         if is_shown {
             let sampled = rows.last().map_or(&row.errors, |(_, errors)| errors);
-            let now = follow(plan, sampled, held.last().map(|(_, before)| before));
+            let now = follow(plan, (sampled, &places), held.last().map(|(_, before)| before));
             found.add(plan, log.times_s()[i], (&row.errors, sampled, &now), &places);
             found.others(plan, &row, &places)?;
             held.push((rows.len(), now));
@@ -248,7 +250,12 @@ fn moments(times_s: &[f64], most: usize) -> Vec<(usize, bool)> {
 }
 
 fn model_of(plan: &Plan) -> Model {
-    let live = |a: &AxisPlan| LiveAxis { axis: a.axis, increment: a.increment, sign: a.sign };
+    let live = |a: &AxisPlan| LiveAxis {
+        axis: a.axis,
+        increment: a.increment,
+        sign: a.sign,
+        line: a.line,
+    };
     Model::new(plan.machine.clone(), plan.of, plan.part, plan.axes.iter().map(live).collect())
 }
 
@@ -328,13 +335,35 @@ fn row(
 }
 
 /// The offsets at all places, mm or rad.
-fn follow(plan: &Plan, sampled: &Errors, before: Option<&Offsets>) -> Offsets {
+fn follow(
+    plan: &Plan,
+    (sampled, places): (&Errors, &[Vec<f64>]),
+    before: Option<&Offsets>,
+) -> Offsets {
     let axis = |(live, errors): (usize, &Vec<f64>)| {
-        let one =
-            |(i, e): (usize, &f64)| followed(&plan.axes[live], -e, before.map(|all| all[live][i]));
-        errors.iter().enumerate().map(one).collect()
+        let (own, before) = (&plan.axes[live], before.map(|all| &all[live]));
+        let wanted: Vec<f64> = errors.iter().map(|e| -e).collect();
+        if let Some(ends) = own.line {
+            return on_line(own, ends, (&places[live], &wanted), before);
+        }
+        let one = |(i, wanted): (usize, &f64)| followed(own, *wanted, before.map(|all| all[i]));
+        wanted.iter().enumerate().map(one).collect()
     };
     sampled.iter().enumerate().map(axis).collect()
+}
+
+/// Of an axis along which the control corrects by a line: its ends follow, and all places are on it.
+fn on_line(
+    own: &AxisPlan,
+    ends: [f64; 2],
+    (places, wanted): (&[f64], &[f64]),
+    before: Option<&Vec<f64>>,
+) -> Vec<f64> {
+    let target = Line::through(places, wanted, ends);
+    let held = before.map(|before| Line::through(places, before, ends).values);
+    let end = |i: usize| followed(own, target.values[i], held.map(|held| held[i]));
+    let line = Line { ends, values: [end(0), end(1)] };
+    places.iter().map(|place| line.at(*place)).collect()
 }
 
 /// One offset, mm or rad: in whole increments it follows with the dead band, within the limit.
@@ -402,8 +431,11 @@ impl Found {
                 worst.by_increment.max(largest(then.iter().zip(held).map(|(t, h)| t + h)));
             worst.needed = worst.needed.max(largest(then.iter().copied()));
             let steps = errors.windows(2).zip(places[live].windows(2));
-            worst.slope =
-                worst.slope.max(largest(steps.map(|(e, q)| (e[1] - e[0]) / (q[1] - q[0]))));
+            // A control that follows the position by itself is not late with it.
+            if plan.axes[live].line.is_none() {
+                let slopes = steps.map(|(e, q)| (e[1] - e[0]) / (q[1] - q[0]));
+                worst.slope = worst.slope.max(largest(slopes));
+            }
             before.push(without * shown(plan, live));
             after.push(with * shown(plan, live));
         }

@@ -15,11 +15,13 @@ pub use sensors::{SensorPlan, Source};
 
 use crate::control::Mode;
 use crate::governor::{AfterHold, OnDifference, Settings};
+use crate::line::at_positions;
 use crate::model::Part;
 use std::path::{Path, PathBuf};
 use trueaxis::compensate::not_twice;
 use trueaxis::input::{Diagnostics, Dimension, Files, Item, Place, Section, SourceText};
 use trueaxis::machine::Machine;
+use trueaxis::machine::axis::Command;
 use trueaxis::predict::holes::Compensation;
 
 /// The plan of a run.
@@ -51,6 +53,31 @@ pub struct Plan {
     pub folder: Option<PathBuf>,
     /// Of the text of the plan and of the machine, in hexadecimal: a journal and a record belong to one plan.
     pub hash: String,
+}
+
+impl Plan {
+    /// Values of each axis at a position, from those of a control: two, of the ends of the travel, where it corrects along a line.
+    pub fn at_position(&self, values: impl Iterator<Item = f64>, at: &Command) -> Vec<f64> {
+        at_positions(self.axes.iter().map(|axis| (axis.line, at[axis.axis])), values).collect()
+    }
+
+    /// The same where no position is known: the larger of two.
+    pub fn largest(&self, counts: &[i32]) -> Vec<f64> {
+        let mut counts = counts.iter().map(|n| f64::from(*n));
+        let larger = |a: f64, b: f64| if b.abs() > a.abs() { b } else { a };
+        let of = |axis: &AxisPlan| {
+            let first = counts.next().unwrap_or(0.0);
+            if axis.line.is_some() { larger(first, counts.next().unwrap_or(0.0)) } else { first }
+        };
+        self.axes.iter().map(of).collect()
+    }
+
+    /// The places of a live axis among the offsets of the control.
+    pub fn places(&self, live: usize) -> std::ops::Range<usize> {
+        let of = |axis: &AxisPlan| if axis.line.is_some() { 2 } else { 1 };
+        let from: usize = self.axes.iter().take(live).map(of).sum();
+        from..from + self.axes.get(live).map_or(0, of)
+    }
 }
 
 /// Reads a plan with all that it names.
@@ -101,7 +128,7 @@ fn read(root: &Section<'_>, path: &Path, commissions: bool) -> Option<Plan> {
     let (of, part, without_part) =
         correction.unwrap_or((Compensation::Comprehensive, Part::Whole, false));
     check_of(root, &machine, of, without_part);
-    let axes = axes::read_axes(root, &machine);
+    let mut axes = axes::read_axes(root, &machine);
     let control = control::read_control(root, folder, &machine, (&axes, commissions));
     check_pose(root, &machine, of, control.as_ref());
     let pose = control.as_ref().is_some_and(ControlPlan::takes_pose);
@@ -113,8 +140,14 @@ fn read(root: &Section<'_>, path: &Path, commissions: bool) -> Option<Plan> {
     let policy = root.section("policy", read_policy).unwrap_or_default();
     let journal = root.section("journal", |s| s.text("folder").map(|text| folder.join(text)));
     let control = control?;
+    axes.iter_mut().enumerate().for_each(|(i, axis)| axis.line = control.line(i));
+    // Of a line both ends have the limits of the axis.
+    let limits = axes.iter().flat_map(|axis| {
+        let offsets = if axis.line.is_some() { 2 } else { 1 };
+        std::iter::repeat_n(axis.limits, offsets)
+    });
     let settings = Settings {
-        axes: axes.iter().map(|axis| axis.limits).collect(),
+        axes: limits.collect(),
         window_s,
         hold_s: policy.hold_s,
         after_hold: policy.after_hold,

@@ -323,7 +323,9 @@ impl Governor {
             self.enter(State::Arm, reason, 0.0);
             return Some(self.order(None, seen));
         }
-        if let Err(reason) = &inputs.target {
+        // A zero is touched in Hold, so a run without it must come there.
+        let fault = inputs.target.as_ref().err();
+        if let Some(reason) = fault.filter(|reason| !matches!(reason, Reason::Setup { .. })) {
             let reason = reason.clone();
             self.enter(State::Arm, reason, 0.0);
             return Some(self.order(None, seen));

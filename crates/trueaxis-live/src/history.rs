@@ -72,10 +72,11 @@ impl Peaks {
         self.0.resize(plan.axes.len(), [None; 2]);
         let Some(target) = &cycle.output.target else { return };
         let Ok(seen) = &cycle.input.seen else { return };
-        let acting = correction.acting(seen);
+        let Some(at) = &cycle.output.programmed else { return };
+        let acting = correction.acting_at(seen, at);
         for (i, (peak, axis)) in self.0.iter_mut().zip(&plan.axes).enumerate() {
-            let Some(target) = target.offsets.get(i) else { continue };
-            let acts = acting.get(i).map_or(0.0, |acts| f64::from(*acts));
+            let Some(target) = target.here.get(i) else { continue };
+            let acts = acting.get(i).copied().unwrap_or(0.0);
             let scale = axis.increment * if is_linear(plan, axis) { 1e3 } else { 1e6 };
             for (peak, now) in peak.iter_mut().zip([0.0 - target, acts - target]) {
                 let larger = peak.is_none_or(|peak: f64| (now * scale).abs() > peak.abs());

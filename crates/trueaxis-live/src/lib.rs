@@ -23,6 +23,7 @@ pub mod file;
 pub mod focas;
 pub mod governor;
 pub mod history;
+pub mod line;
 #[allow(unsafe_code, reason = "the library of LinuxCNC is C")]
 pub mod linuxcnc;
 pub mod memory;
@@ -35,6 +36,7 @@ pub mod parts;
 pub mod pose;
 pub mod run;
 pub mod sensor;
+pub mod setups;
 pub mod start;
 pub mod status;
 pub mod store;

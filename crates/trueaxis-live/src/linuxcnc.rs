@@ -69,6 +69,8 @@ pub struct LinuxCncSettings {
     pub live: Vec<LiveJoint>,
     /// A servo thread that does not go on for so long has ended.
     pub timeout_s: f64,
+    /// The number of the setup stands in a signal.
+    pub has_setup: bool,
 }
 
 const WORLD: [&str; 3] = ["x", "y", "z"];
@@ -106,6 +108,7 @@ impl LinuxCncSettings {
         numbers_in.extend(live("request"));
         numbers_in
             .extend(["begin", "end", "velocity", "tool-length", "program-line"].map(str::to_owned));
+        numbers_in.extend(self.has_setup.then(|| "setup".to_owned()));
         let mut bits_in = BITS_IN.map(str::to_owned).to_vec();
         bits_in.extend(joints("homed"));
         let mut numbers_out = live("offset");
@@ -246,8 +249,16 @@ impl<P: Pins> LinuxCnc<P> {
             tool_length_mm: Some(tool_length),
             standing_tip_mm: None,
             block: block(pins.number(at.begin + 4)),
+            setup: self.setup(),
         };
         (raw, seen)
+    }
+
+    /// The number of the setup that is in the machine.
+    #[expect(clippy::cast_possible_truncation, reason = "a small number; it saturates")]
+    fn setup(&self) -> Option<i32> {
+        let number = || self.pins.number(self.at.begin + 5).round() as i32;
+        self.settings.has_setup.then(number)
     }
 
     /// The tip of the control, once its axes stand: while they move it is some cycles ahead of the joints.

@@ -9,6 +9,7 @@
 
 use crate::datum::Datum;
 use crate::governor::Reason;
+use crate::line::{Line, at_positions, places};
 use crate::linuxcnc::KinematicsCheck;
 use crate::pose::{Frame, PoseCorrection, World, turns};
 use trueaxis::compensate::values::{error_of, error_split};
@@ -41,6 +42,8 @@ pub struct LiveAxis {
     pub increment: f64,
     /// +1 if a larger offset moves the tool in the direction of the axis for the same program, else −1. Unit: 1.
     pub sign: f64,
+    /// The ends of the travel, where the control corrects along a line of the position. Unit: mm.
+    pub line: Option<[f64; 2]>,
 }
 
 /// The model of a run.
@@ -81,10 +84,19 @@ struct Warm {
 /// Where the offsets shall go.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Target {
-    /// In increments, one for each live axis. Unit: counts.
+    /// In increments, one for each live axis, of a line two, those of its ends. Unit: counts.
     pub offsets: Vec<f64>,
+    /// What is wanted at the position itself, in increments, one for each live axis: of a line it need not lie on it. Unit: counts.
+    pub here: Vec<f64>,
     /// An axis stands outside its travel: the value is that of its end.
     pub is_clamped: bool,
+}
+
+impl Target {
+    /// Offsets that no model gives.
+    pub fn constant(offsets: &[f64]) -> Self {
+        Self { offsets: offsets.to_vec(), here: Vec::new(), is_clamped: false }
+    }
 }
 
 impl Model {
@@ -155,6 +167,15 @@ impl Model {
         Datum { missing: self.axes.iter().map(|l| place(l).map_or(0.0, |i| moved[i])).collect() }
     }
 
+    /// Values of each live axis at a position, from those of the control, two of each line.
+    pub fn at_position(
+        &self,
+        values: impl Iterator<Item = f64>,
+        at: &Command,
+    ) -> impl Iterator<Item = f64> {
+        at_positions(self.axes.iter().map(|live| (live.line, at[live.axis])), values)
+    }
+
     /// What is subtracted of each live axis at a position. Unit: mm or rad.
     fn subtracted(&self, frame: Frame, at: &Command) -> Vec<f64> {
         let Some(datum) = &self.datum else { return vec![0.0; self.axes.len()] };
@@ -191,8 +212,9 @@ impl Model {
     /// The command of the program from positions with an offset of each live axis, in increments.
     pub fn programmed(&self, frame: Frame, positions: &Command, acting: &[i32]) -> Command {
         let mut offset = Command::default();
-        for (axis, counted) in self.axes.iter().zip(acting) {
-            offset[axis.axis] = axis.sign * f64::from(*counted) * axis.increment;
+        let counted = acting.iter().map(|n| f64::from(*n));
+        for (axis, counted) in self.axes.iter().zip(self.at_position(counted, positions)) {
+            offset[axis.axis] = axis.sign * counted * axis.increment;
         }
         match &self.pose {
             Some(pose) => pose.world.without(frame, positions, &offset),
@@ -278,14 +300,38 @@ impl Model {
         let fault = |what: &str| Reason::Model { what: what.to_owned() };
         let warm = self.warm.as_ref().ok_or_else(|| fault("no temperatures yet"))?;
         let subtracted = self.subtracted(frame, &command);
-        let offsets = self.axes.iter().zip(subtracted).map(|(live, subtracted)| {
+        let (mut offsets, mut here) = (Vec::new(), Vec::new());
+        for (live, subtracted) in self.axes.iter().zip(subtracted) {
             let wanted = match &by {
                 Some(by) => by[live.axis],
                 None => -self.error(&warm.machine, live.axis, &command)?,
             };
-            Ok((wanted - subtracted) * live.sign / live.increment)
-        });
-        Ok(Target { offsets: offsets.collect::<Result<_, _>>()?, is_clamped })
+            let counted = |wanted: f64| (wanted - subtracted) * live.sign / live.increment;
+            here.push(counted(wanted));
+            match live.line {
+                None => offsets.push(counted(wanted)),
+                Some(ends) => {
+                    let line = self.line(&warm.machine, (live.axis, ends), &command)?;
+                    offsets.extend(line.values.map(counted));
+                }
+            }
+        }
+        Ok(Target { offsets, here, is_clamped })
+    }
+
+    /// The line along an axis that comes closest to what is wanted there, the others where they are.
+    fn line(
+        &self,
+        warm: &Machine,
+        (axis, ends): (usize, [f64; 2]),
+        command: &Command,
+    ) -> Result<Line, Reason> {
+        let (places, mut along, mut wanted) = (places(ends), *command, Vec::new());
+        for place in places {
+            along[axis] = place;
+            wanted.push(-self.error(warm, axis, &along)?);
+        }
+        Ok(Line::through(&places, &wanted, ends))
     }
 
     /// The offset of every axis where tip and tool axis are corrected together. Unit: mm or rad.

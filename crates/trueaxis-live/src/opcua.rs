@@ -5,8 +5,9 @@
 //! ```
 //!
 //! On SINUMERIK the offset is SD43900 `$SA_TEMP_COMP_ABS_VALUE`, the position-independent part of its temperature compensation,
-//! which the NC moves to within MD32760 (Siemens 6FC5397, K3). Which node is what, is a matter of the machine and the version of its
-//! server: nothing is assumed. The connection needs the feature `opcua`; everything else is tested without it.
+//! which the NC moves to within MD32760 (Siemens 6FC5397, K3). With MD32750 bit 1 it adds SD43910 · (x − SD43920): then slope and
+//! offset are written, and the NC follows the position by itself ([`crate::line`]). Which node is what, is a matter of the machine
+//! and the version of its server: nothing is assumed. The connection needs the feature `opcua`; everything else is tested without it.
 
 #[cfg(feature = "opcua")]
 mod client;
@@ -16,6 +17,7 @@ pub use client::Client;
 
 use crate::control::{Control, Identity, LinkFault, Mode, Seen, Sent};
 use crate::governor::increments_of;
+use crate::line::Line;
 use crate::pose::Frame;
 
 /// What a node holds.
@@ -64,13 +66,26 @@ pub trait Nodes {
     fn server(&mut self, now_s: f64) -> Result<[String; 3], LinkFault>;
 }
 
+/// The nodes of a line: the control adds slope · (position − reference) to the offset of an axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LineNodes {
+    /// The slope, mm for each mm; written.
+    pub slope: String,
+    /// Where the line has the value of the offset, mm; read, never written.
+    pub reference: String,
+    /// The ends of the travel of the axis. Unit: mm.
+    pub ends: [f64; 2],
+}
+
 /// Which node is what.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct NodeNames {
     /// The position of each axis of the machine file, mm or deg.
     pub positions: Vec<String>,
     /// The offset of each live axis, mm or deg.
     pub offsets: Vec<String>,
+    /// What makes a line of it, for each live axis.
+    pub lines: Vec<Option<LineNodes>>,
     /// What acts of it, where the control says so.
     pub acting: Option<Vec<String>>,
     /// True while all live axes have their reference points.
@@ -93,6 +108,8 @@ pub struct NodeNames {
     pub ask_hold: Option<String>,
     /// True once the PLC has let the offsets go.
     pub tripped: Option<String>,
+    /// The number of the setup: of a pallet, a work offset, a clamping.
+    pub setup: Option<String>,
 }
 
 /// One control.
@@ -119,17 +136,40 @@ pub struct OpcUaSettings {
 pub struct OpcUa<N> {
     nodes: N,
     settings: OpcUaSettings,
+    /// Where each line has the value of its offset, as it was read last. Unit: mm.
+    references: Vec<f64>,
 }
 
 impl<N: Nodes> OpcUa<N> {
     /// Over the nodes of a server.
     pub fn new(nodes: N, settings: OpcUaSettings) -> Self {
-        Self { nodes, settings }
+        Self { nodes, settings, references: Vec::new() }
     }
 
     /// The nodes.
     pub fn nodes(&mut self) -> &mut N {
         &mut self.nodes
+    }
+
+    /// The line of each live axis that has one, by its values at the ends.
+    fn lines(
+        &mut self,
+        taken: &mut Taken,
+        offsets: &[f64],
+    ) -> Result<Vec<Option<Line>>, LinkFault> {
+        self.references.clear();
+        let mut found = Vec::with_capacity(offsets.len());
+        for (offset, nodes) in offsets.iter().zip(&self.settings.nodes.lines) {
+            let Some(nodes) = nodes else {
+                found.push(None);
+                continue;
+            };
+            let [slope, reference] = [taken.next()?.number(), taken.next()?.number()];
+            self.references.push(reference);
+            let values = nodes.ends.map(|end| offset + slope * (end - reference));
+            found.push(Some(Line { ends: nodes.ends, values }));
+        }
+        Ok(found)
     }
 
     fn counted(&self, live: usize, value: f64) -> Result<i32, LinkFault> {
@@ -160,6 +200,17 @@ impl Taken {
         (0..count).map(|_| self.next().map(|value| value.number())).collect()
     }
 
+    #[expect(clippy::cast_possible_truncation, reason = "checked: whole, and of 32 bits")]
+    fn whole(&mut self) -> Result<i32, LinkFault> {
+        let (node, number) =
+            (self.left.as_slice().first().map(|n| n.0.clone()), self.next()?.number());
+        if number.fract() == 0.0 && number.abs() <= f64::from(i32::MAX) {
+            return Ok(number as i32);
+        }
+        let node = node.unwrap_or_default();
+        Err(LinkFault::Garbage { reason: format!("{node} is no whole number: {number}") })
+    }
+
     fn flag_if(&mut self, asked: bool) -> Result<bool, LinkFault> {
         if asked { self.next().map(|value| value.flag()) } else { Ok(false) }
     }
@@ -169,9 +220,10 @@ impl NodeNames {
     /// All that are read, in the order in which [`Taken`] takes them.
     fn read(&self) -> Vec<&str> {
         let several = self.positions.iter().chain(&self.offsets);
-        let several = several.chain(self.acting.iter().flatten());
+        let lines = self.lines.iter().flatten().flat_map(|line| [&line.slope, &line.reference]);
+        let several = several.chain(lines).chain(self.acting.iter().flatten());
         let always = [&self.referenced, &self.inhibit, &self.running, &self.mode, &self.emergency];
-        let maybe = [&self.alarm, &self.tripped, &self.feed].into_iter().flatten();
+        let maybe = [&self.alarm, &self.tripped, &self.setup, &self.feed].into_iter().flatten();
         several.chain(always).chain(maybe).map(String::as_str).collect()
     }
 }
@@ -194,6 +246,7 @@ impl<N: Nodes> Control for OpcUa<N> {
         let mut taken = Taken { left: named.into_iter() };
         let mut raw = taken.numbers(settings.axes.len())?;
         let offsets_raw = taken.numbers(live)?;
+        let lines = self.lines(&mut taken, &offsets_raw)?;
         let acting_raw = nodes.acting.as_ref().map(|_| taken.numbers(live)).transpose()?;
         let [homed, inhibited, cutting] =
             [taken.next()?.flag(), taken.next()?.flag(), taken.next()?.flag()];
@@ -201,21 +254,31 @@ impl<N: Nodes> Control for OpcUa<N> {
         let emergency = taken.next()?.flag();
         let alarm = taken.flag_if(nodes.alarm.is_some())?;
         let tripped = taken.flag_if(nodes.tripped.is_some())?;
+        let setup = if nodes.setup.is_some() { Some(taken.whole()?) } else { None };
         let feed = if nodes.feed.is_some() { taken.next()?.number() } else { 0.0 };
         if !settings.positions_have_offset {
             let acts = acting_raw.as_ref().unwrap_or(&offsets_raw);
-            settings.live.iter().zip(acts).for_each(|(axis, acts)| raw[*axis] += acts);
+            for ((axis, acts), line) in settings.live.iter().zip(acts).zip(&lines) {
+                raw[*axis] += line.map_or(*acts, |line| line.at(raw[*axis]));
+            }
         }
         let counts = |values: &[f64]| -> Result<Vec<i32>, LinkFault> {
             values.iter().enumerate().map(|(i, value)| self.counted(i, *value)).collect()
         };
+        let mut offsets = Vec::with_capacity(2 * live);
+        for (i, (value, line)) in offsets_raw.iter().zip(&lines).enumerate() {
+            let values = line.map_or(vec![*value], |line| line.values.to_vec());
+            for value in values {
+                offsets.push(self.counted(i, value)?);
+            }
+        }
         let mode = settings.modes.iter().find(|(known, _)| f64::from(*known) == number);
         let turned = raw.iter().zip(&settings.rotary);
         Ok(Seen {
             positions: turned
                 .map(|(q, rotary)| if *rotary { q.to_radians() } else { *q })
                 .collect(),
-            offsets: counts(&offsets_raw)?,
+            offsets,
             acting: acting_raw.as_deref().map(counts).transpose()?,
             homed,
             emergency,
@@ -230,6 +293,7 @@ impl<N: Nodes> Control for OpcUa<N> {
             tool_length_mm: None,
             standing_tip_mm: None,
             block: None,
+            setup,
         })
     }
 
@@ -244,8 +308,24 @@ impl<N: Nodes> Control for OpcUa<N> {
         if let Some(node) = &nodes.ask_hold {
             all.push((node, Value::Flag(sent.ask_hold)));
         }
-        for (i, offset) in sent.offsets.iter().flatten().enumerate() {
-            let value = f64::from(*offset) * settings.increments[i];
+        let mut counts = sent.offsets.iter().flatten();
+        let mut references = self.references.iter();
+        for (i, increment) in settings.increments.iter().enumerate() {
+            let Some(first) = counts.next() else { break };
+            let first = f64::from(*first) * increment;
+            let value = match &nodes.lines[i] {
+                None => first,
+                Some(LineNodes { slope, ends, .. }) => {
+                    let (Some(second), Some(reference)) = (counts.next(), references.next()) else {
+                        let reason = "a line is written before it was read".to_owned();
+                        return Err(LinkFault::Garbage { reason });
+                    };
+                    let line =
+                        Line { ends: *ends, values: [first, f64::from(*second) * increment] };
+                    all.push((slope, Value::Number(line.slope())));
+                    line.at(*reference)
+                }
+            };
             all.push((&nodes.offsets[i], Value::Number(value)));
         }
         if all.is_empty() {

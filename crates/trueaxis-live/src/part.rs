@@ -234,7 +234,7 @@ fn known(plan: &Plan, cycle: &Cycle) -> Result<Known, String> {
         celsius.map_err(|fault| format!("{}: {fault}", sensor.settings.name))
     });
     let celsius = celsius.collect::<Result<_, String>>()?;
-    let axes = plan.axes.iter().zip(&target.offsets);
+    let axes = plan.axes.iter().zip(&target.here);
     Ok(Known { targets: axes.map(|(axis, n)| n * scale(plan, axis)).collect(), celsius })
 }
 
@@ -244,9 +244,9 @@ fn row(
     (seen, correction, programmed): (&Seen, &Correction, &Command),
     known: &Known,
 ) -> Row {
-    let acting = correction.acting(seen);
-    let axes = plan.axes.iter().zip(&acting).zip(&known.targets).map(|((axis, n), target)| {
-        let acted = f64::from(*n) * scale(plan, axis);
+    let acting = correction.acting_at(seen, programmed);
+    let axes = plan.axes.iter().zip(acting).zip(&known.targets).map(|((axis, n), target)| {
+        let acted = n * scale(plan, axis);
         [acted, *target, acted - target]
     });
     let at = plan.machine.axes().iter().zip(programmed);

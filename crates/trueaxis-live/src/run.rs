@@ -8,6 +8,7 @@ use crate::file::Plan;
 use crate::governor::{Owned, Reason, State};
 use crate::memory::HeatOfRun;
 use crate::sensor::Sensor;
+use crate::setups::SetupDatum;
 use crate::store::{Event, Store};
 
 /// What a person wants.
@@ -33,6 +34,8 @@ pub struct Run<'a> {
     dry: bool,
     counts: Counts,
     datum: Option<DatumOrder>,
+    /// The zeros that the store has.
+    kept: Vec<SetupDatum>,
     memory: Option<HeatOfRun>,
 }
 
@@ -79,6 +82,7 @@ impl<'a> Run<'a> {
             dry: false,
             counts: Counts::default(),
             datum: None,
+            kept: Vec::new(),
             memory: None,
         }
     }
@@ -152,7 +156,7 @@ impl<'a> Run<'a> {
         let output = self.correction.step(&input);
         self.counts.cycles += 1;
         self.note(now_s, &input, &output);
-        self.keep_datum(now_s, &input, &output);
+        self.keep_datums(now_s, &input, &output);
         self.send(&input, &output, clock.now_s());
         // A record that is lost does not end a run.
         let _ = self.store.record(&input, &output.order);
@@ -187,15 +191,17 @@ impl<'a> Run<'a> {
         let _ = self.store.event(&event);
     }
 
-    /// A zero that was taken or cleared is kept; what was set at the start is kept already.
-    fn keep_datum(&mut self, now_s: f64, input: &CycleInput, output: &CycleOutput) {
+    /// The zeros are kept whenever one of them is taken, cleared, or a setup is seen first.
+    fn keep_datums(&mut self, now_s: f64, input: &CycleInput, output: &CycleOutput) {
+        let now = self.correction.setups().known();
+        // Not kept, so it would be lost at a restart: the offsets wait until the journal can be written.
+        if now != self.kept {
+            match self.store.datums(now) {
+                Ok(()) => self.kept = now.to_vec(),
+                Err(_) => self.journal_fails = true,
+            }
+        }
         let Some(outcome) = &output.datum else { return };
-        let is_new = !matches!(input.datum, Some(DatumOrder::Set(_)));
-        let is_touch = matches!(input.datum, Some(DatumOrder::Take));
-        let kept = match outcome {
-            Ok(datum) if is_new => self.store.datum(datum.as_ref().filter(|_| is_touch)),
-            _ => Ok(()),
-        };
         let (event, what) = shown_outcome(outcome);
         let event = Event {
             at_s: now_s,
@@ -204,8 +210,7 @@ impl<'a> Run<'a> {
             what,
             offsets: input.seen.as_ref().map_or_else(|_| Vec::new(), |seen| seen.offsets.clone()),
         };
-        // Not kept, so it would be lost at a restart: the offsets wait until the journal can be written.
-        self.journal_fails |= kept.and_then(|()| self.store.event(&event)).is_err();
+        self.journal_fails |= self.store.event(&event).is_err();
     }
 
     fn send(&mut self, input: &CycleInput, output: &CycleOutput, now_s: f64) {

@@ -15,10 +15,10 @@ use crate::mock::MockServer;
 use crate::part::PartOfRun;
 use crate::run::{Cycle, Run, Wish};
 use crate::start::{
-    check_built, connect, connect_linuxcnc, connect_opcua, mock_of, owner, sensors_of,
+    check_built, connect, connect_linuxcnc, connect_opcua, doubt, mock_of, owner, sensors_of,
 };
 use crate::status::{LiveState, folder_of, is_lagging, live_state, status_json};
-use crate::store::{DiskStore, StoreFault, kept_datum, kept_heat};
+use crate::store::{DiskStore, StoreFault, kept_datums, kept_heat};
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use trueaxis::input::{Diagnostics, Files, Place};
@@ -88,6 +88,11 @@ pub fn run_session(
             return Err(problems);
         }
     };
+    if let Some(doubt) = doubt(&plan, &identity) {
+        tell(&doubt);
+        let hint = "what was published is listed in docs/ladder-watchdog.md, FANUC";
+        problems.warn("live-series", Place::whole(&plan.path.display().to_string()), doubt, hint);
+    }
     let Some(folder) = folder_of(&plan, &mut problems) else { return Err(problems) };
     let (mut store, owned) = match DiskStore::open(&folder, &owner(&plan, &identity)) {
         Ok((store, owned)) => (store.of_plan(&plan.hash), owned),
@@ -140,9 +145,9 @@ fn first_datum(
     folder: &Path,
     (confirmed, correction): (bool, &Correction),
 ) -> Result<Option<DatumOrder>, String> {
-    if let Some(kept) = kept_datum(folder)? {
+    if let Some(kept) = kept_datums(folder)? {
         return match kept.plan_hash == plan.hash || confirmed {
-            true => Ok(Some(DatumOrder::Set(kept.datum))),
+            true => Ok(Some(DatumOrder::Kept(kept.zeros))),
             false => {
                 Err("the zero of the part was touched under another plan or machine file"
                     .to_owned())

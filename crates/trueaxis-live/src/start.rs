@@ -80,6 +80,21 @@ pub fn connect<W: Wire>(
     Ok((control.with(settings(plan, fanuc, numbers)), identity))
 }
 
+/// The kinds of control whose answers to these calls are published (docs/ladder-watchdog.md).
+const KNOWN_KINDS: [&str; 5] = ["0", "30", "31", "32", "35"];
+
+/// What is not known of a FANUC control, in words.
+pub fn doubt(plan: &Plan, found: &Identity) -> Option<String> {
+    let is_new = plan.control.fanuc().is_some() && !KNOWN_KINDS.contains(&found.kind.as_str());
+    is_new.then(|| {
+        format!(
+            "the control is a FANUC {}: the calls of this program are published for 0i and 30i to 35i only; compare \
+             positions, feed, mode and offset with its screen in a --dry-run before anything is cut",
+            found.kind
+        )
+    })
+}
+
 /// Which joints of LinuxCNC belong to a plan.
 pub fn linuxcnc_settings(plan: &Plan) -> LinuxCncSettings {
     let joint = |axis: &trueaxis::machine::axis::Axis| Joint {
@@ -92,6 +107,7 @@ pub fn linuxcnc_settings(plan: &Plan) -> LinuxCncSettings {
         joints: plan.machine.axes().iter().map(joint).collect(),
         live: plan.axes.iter().map(live).collect(),
         timeout_s: plan.control.timeout_s(),
+        has_setup: matches!(plan.control, crate::file::ControlPlan::LinuxCnc(own) if own.has_setup),
     }
 }
 
@@ -204,6 +220,7 @@ fn settings(plan: &Plan, fanuc: &FanucPlan, numbers: Vec<u16>) -> FanucSettings 
         rotary: plan.machine.axes().iter().map(|axis| axis.kind == AxisKind::Rotary).collect(),
         referenced: fanuc.referenced,
         inhibit: fanuc.inhibit,
+        setup: fanuc.setup,
         pmc: fanuc.pmc,
     }
 }
@@ -268,7 +285,12 @@ fn compare(
 
 /// Whose offsets they are.
 pub fn owner(plan: &Plan, control: &Identity) -> Owner {
-    let axes = plan.axes.iter().map(|axis| axis.name.clone()).collect();
+    // Offsets at the ends of a travel are others than those at the position.
+    let name = |axis: &crate::file::AxisPlan| match axis.line {
+        Some([from, to]) => format!("{} at {from} and {to} mm", axis.name),
+        None => axis.name.clone(),
+    };
+    let axes = plan.axes.iter().map(name).collect();
     Owner { machine: plan.machine.name().to_owned(), control: control.clone(), axes }
 }
 

@@ -85,6 +85,9 @@ pub struct LiveState {
     /// The part whose record is filled; null without one.
     #[serde(default)]
     pub part: Option<String>,
+    /// The number of the setup that is in the machine; null where the control does not say.
+    #[serde(default)]
+    pub setup: Option<i32>,
     /// Cycles so far.
     pub cycles: u64,
     /// Periods in which no cycle began.
@@ -156,26 +159,35 @@ pub fn live_state(
     correction: &Correction,
     counts: Counts,
 ) -> LiveState {
-    let own = correction.governor().corrections();
+    let at = cycle.output.programmed;
+    let counted =
+        |list: &[i32]| at.map(|at| plan.at_position(list.iter().map(|n| f64::from(*n)), &at));
+    let own = plan.largest(&correction.governor().corrections());
+    let own = counted(&correction.governor().corrections()).unwrap_or(own);
     let datum = |i: usize| correction.datum().and_then(|datum| datum.missing.get(i)).copied();
     let order = &cycle.output.order;
     let seen = cycle.input.seen.as_ref().ok();
+    let offsets = seen.and_then(|seen| counted(&seen.offsets));
+    let acting = seen.and_then(|seen| counted(seen.acting.as_ref()?));
+    let lag = cycle.output.lag.as_ref().zip(at);
+    let lag = lag.map(|(lag, at)| plan.at_position(lag.iter().copied(), &at));
+    let target = cycle.output.target.as_ref().map(|target| &target.here);
     let axes = plan.axes.iter().enumerate().map(|(i, axis)| {
         let is_linear = is_linear(plan, axis);
         let scale = axis.increment * if is_linear { 1e3 } else { 1e6 };
-        let counted = |list: &Vec<i32>| list.get(i).map(|n| f64::from(*n) * scale);
-        let position = cycle.output.programmed.map(|at| at[axis.axis]);
+        let shown = |list: &Vec<f64>| list.get(i).map(|n| n * scale);
+        let position = at.map(|at| at[axis.axis]);
         LiveAxisEntry {
             axis: axis.name.clone(),
             unit: if is_linear { "um" } else { "urad" }.to_owned(),
             position: position.map(|at| if is_linear { at } else { at.to_degrees() }),
-            offset: seen.and_then(|seen| counted(&seen.offsets)),
-            acting: seen.and_then(|seen| seen.acting.as_ref()).and_then(counted),
-            own: own.get(i).map_or(0.0, |n| f64::from(*n) * scale),
-            target: cycle.output.target.as_ref().and_then(|t| t.offsets.get(i)).map(|t| t * scale),
+            offset: offsets.as_ref().and_then(shown),
+            acting: acting.as_ref().and_then(shown),
+            own: shown(&own).unwrap_or(0.0),
+            target: target.and_then(shown),
             limit: f64::from(axis.limits.limit) * scale,
             datum: datum(i).map(|missing| missing * if is_linear { 1e3 } else { 1e6 }),
-            lag: cycle.output.lag.as_ref().and_then(|lag| lag.get(i)).map(|lag| lag * scale),
+            lag: lag.as_ref().and_then(shown),
         }
     });
     let sensors =
@@ -203,6 +215,7 @@ pub fn live_state(
         lagging: is_lagging(plan, cycle),
         outside_travel: cycle.output.target.as_ref().is_some_and(|t| t.is_clamped),
         part: None,
+        setup: correction.setups().now(),
         cycles: counts.cycles,
         missed: counts.missed,
         writes: counts.writes,
@@ -217,8 +230,11 @@ pub fn is_linear(plan: &Plan, axis: &AxisPlan) -> bool {
 
 /// Whether an offset is late by more than its plan allows.
 pub fn is_lagging(plan: &Plan, cycle: &Cycle) -> bool {
-    let lags = cycle.output.lag.iter().flatten().zip(&plan.axes);
-    lags.into_iter().any(|(lag, axis)| axis.lag.is_some_and(|most| lag * axis.increment > most))
+    let (Some(lag), Some(at)) = (&cycle.output.lag, &cycle.output.programmed) else { return false };
+    let lags = plan.at_position(lag.iter().copied(), at);
+    let is_late =
+        |(lag, axis): (f64, &AxisPlan)| axis.lag.is_some_and(|most| lag * axis.increment > most);
+    lags.into_iter().zip(&plan.axes).any(is_late)
 }
 
 /// The document of a run, going on or ended.

@@ -10,7 +10,7 @@ mod lines;
 mod memory;
 mod part;
 
-pub use datum::{KeptDatum, ask_datum, kept_datum};
+pub use datum::{KeptDatums, ask_datum, kept_datums};
 pub use disk::{DiskStore, StoreFault, ask_stop, is_running, last_events, last_state, own_folder};
 pub use heat::{KeptHeat, kept_heat};
 pub use history::history_lines;
@@ -19,9 +19,10 @@ pub use part::{PartFault, begin_part, end_part, part_now, part_path, parts};
 
 use crate::control::Identity;
 use crate::cycle::CycleInput;
-use crate::datum::{Datum, DatumOrder};
+use crate::datum::DatumOrder;
 use crate::governor::{Order, Owned};
 use crate::memory::HeatOfRun;
+use crate::setups::SetupDatum;
 use serde::{Deserialize, Serialize};
 
 /// Whose offsets they are.
@@ -78,11 +79,11 @@ pub trait Store {
         Ok(())
     }
 
-    /// The zero of the part, for the next run.
+    /// The zeros of all setups, for the next run.
     ///
     /// # Errors
     /// What the disk says.
-    fn datum(&mut self, _datum: Option<&Datum>) -> Result<(), String> {
+    fn datums(&mut self, _all: &[SetupDatum]) -> Result<(), String> {
         Ok(())
     }
 

@@ -37,7 +37,7 @@ fn sign(axis: usize) -> f64 {
 }
 
 fn live(axes: impl Iterator<Item = usize>) -> Vec<LiveAxis> {
-    axes.map(|axis| LiveAxis { axis, increment: INCREMENT, sign: sign(axis) }).collect()
+    axes.map(|axis| LiveAxis { axis, increment: INCREMENT, sign: sign(axis), line: None }).collect()
 }
 
 /// Offsets in increments, as the control moves its axes.
@@ -180,7 +180,7 @@ fn a_touch_with_the_whole_correction_takes_nothing_off() {
     rig.pass(5.0);
     assert_eq!((rig.state(), rig.acting(), rig.writes()), (State::Run, before, writes));
     assert_eq!(last_event(&rig).0, DATUM_SET);
-    let kept = rig.store.0.borrow().datum.clone().expect("kept");
+    let kept = rig.store.0.borrow().datum().expect("kept");
     // Less than the dead band of 1 µm.
     assert!(kept.missing.iter().all(|mm| mm.abs() < 1e-3), "{kept:?}");
 }
@@ -201,7 +201,7 @@ fn a_touch_in_jog_does_not_move_anything_when_the_program_starts() {
     rig.run.ask_datum(DatumOrder::Take);
     rig.pass(1.0);
     assert_eq!(last_event(&rig).0, DATUM_SET, "{:?}", last_event(&rig));
-    let missing = rig.store.0.borrow().datum.clone().expect("kept").missing[0];
+    let missing = rig.store.0.borrow().datum().expect("kept").missing[0];
     assert!(missing.abs() > 0.02, "{missing}");
     rig.mock.borrow_mut().faults.mode = Mode::Automatic;
     rig.pass(10.0);
@@ -212,7 +212,7 @@ fn a_touch_in_jog_does_not_move_anything_when_the_program_starts() {
     let after = rig.acting();
     let by_mm = f64::from(after[0] - before[0]) * 1e-3 * rig.plan.axes[0].sign;
     assert!((by_mm - missing).abs() < 2e-3, "{by_mm} {missing}");
-    assert_eq!((rig.state(), rig.store.0.borrow().datum.clone()), (State::Run, None));
+    assert_eq!((rig.state(), rig.store.0.borrow().datum()), (State::Run, None));
 }
 
 /// 150 µm are beyond the 60 µm of a jump: a zero that is set or cleared is none, and no offset is late by it.
@@ -267,7 +267,7 @@ fn what_cannot_be_a_touch_is_refused_and_changes_nothing() {
     rig.pass(0.1);
     let (event, why) = last_event(&rig);
     assert!(event == DATUM_REFUSED && why.contains("workpiece"), "{event} {why}");
-    assert_eq!(rig.store.0.borrow().datum, None);
+    assert_eq!(rig.store.0.borrow().datum(), None);
     // Of other axes.
     rig.run.ask_datum(DatumOrder::Set(Datum { missing: vec![0.1] }));
     rig.pass(0.1);
@@ -285,7 +285,7 @@ fn a_touch_in_a_dry_run_lacks_the_whole_correction() {
     rig.run.ask_datum(DatumOrder::Take);
     rig.pass(0.2);
     assert_eq!(last_event(&rig).0, DATUM_SET, "{:?}", last_event(&rig));
-    let kept = rig.store.0.borrow().datum.clone().expect("kept");
+    let kept = rig.store.0.borrow().datum().expect("kept");
     for ((mm, whole), axis) in kept.missing.iter().zip(whole).zip(&rig.plan.axes) {
         assert!((mm * 1e3 * axis.sign - whole).abs() < 1.5, "{kept:?} {whole}");
     }

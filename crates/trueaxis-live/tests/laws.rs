@@ -93,6 +93,7 @@ fn cutting(offsets: Vec<i32>) -> Seen {
         tool_length_mm: None,
         standing_tip_mm: None,
         block: None,
+        setup: None,
     }
 }
 

@@ -7,8 +7,11 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 use trueaxis::files::disk;
+use trueaxis::input::Diagnostics;
+use trueaxis::machine::heat::TemperatureLog;
 use trueaxis_live::clock::{Clock, VirtualClock};
 use trueaxis_live::control::LinkFault;
+use trueaxis_live::expect::expect;
 use trueaxis_live::file::{ControlPlan, Plan, read_plan};
 use trueaxis_live::governor::State;
 use trueaxis_live::opcua::{Nodes, OpcUa, Said, Value};
@@ -71,6 +74,22 @@ struct Memory {
     shows_offset: bool,
 }
 
+impl Memory {
+    fn number(&self, name: &str) -> f64 {
+        match self.nodes.get(name) {
+            Some(Value::Number(number)) => *number,
+            _ => 0.0,
+        }
+    }
+
+    /// As the NC computes it: SD43900 + SD43910 · (x − SD43920).
+    fn acts(&self, axis: &str, at: f64) -> f64 {
+        let [offset, slope, reference] =
+            ["o", "s", "r"].map(|n| self.number(&format!("{n}{axis}")));
+        offset + slope * (at - reference)
+    }
+}
+
 #[derive(Clone, Default)]
 struct Server(Rc<RefCell<Memory>>);
 
@@ -122,12 +141,12 @@ impl Nodes for Server {
                 return Err("BadUserAccessDenied".to_owned());
             }
             let value = memory.nodes.get(name).cloned().ok_or("BadNodeIdUnknown".to_owned())?;
-            let offset = memory.nodes.get(&format!("o{name}"));
-            Ok(match (value, offset) {
-                (Value::Number(at), Some(Value::Number(offset))) if memory.shows_offset => {
-                    Value::Number(at + offset)
+            let axis = memory.nodes.contains_key(&format!("o{name}"));
+            Ok(match value {
+                Value::Number(at) if axis && memory.shows_offset => {
+                    Value::Number(at + memory.acts(name, at))
                 }
-                (value, _) => value,
+                value => value,
             })
         };
         Ok(nodes.iter().map(one).collect())
@@ -333,4 +352,124 @@ fn another_control_and_missing_nodes_are_refused_at_the_start() {
         let found = plan_with(&[(old, new)]).expect_err(says);
         assert!(found.iter().any(|f| f.contains(says)), "{says}: {found:?}");
     }
+}
+
+/// The plan of the temperatures alone, with a line along X.
+fn lines(more: &[(&str, &str)]) -> Result<Plan, Vec<String>> {
+    let line = "slope = { X = \"ns=2;s=sX\" }\nreference = { X = \"ns=2;s=rX\" }\nreferenced =";
+    let mut changes = vec![("referenced =", line), ("part = \"whole\"", "part = \"thermal\"")];
+    changes.extend(more);
+    plan_with(&changes)
+}
+
+fn with_line(reference_mm: f64, shows_offset: bool) -> Server {
+    let server = Server::of(shows_offset);
+    server.set("sX", Value::Number(0.0));
+    server.set("rX", Value::Number(reference_mm));
+    server
+}
+
+/// By hand at 30.5 °C all over: a part of 13.2 µm/(m·K) has grown by 138.60 µm on each metre of X, a scale of 10.8 whose table is of 28.4 °C
+/// by 22.68 µm since then: they part by 115.92 µm. That is the slope, whatever the reference is and whether the server shows the offset; no position is written for again.
+#[test]
+fn law_a_line_follows_the_position_by_itself() {
+    for (reference_mm, shows_offset) in
+        [(0.0, true), (3500.0, false), (1200.0, true), (-300.0, false)]
+    {
+        let server = with_line(reference_mm, shows_offset);
+        let have = format!("positions_have_offset = {shows_offset}");
+        let plan = lines(&[("positions_have_offset = true", have.as_str())]);
+        let mut bench = Bench::new(plan.unwrap_or_else(|e| panic!("{e:?}")), &server);
+        bench.pass(20.0);
+        assert!(bench.shown().starts_with("Run"), "{}", bench.shown());
+        let acts = |at: f64| server.0.borrow().acts("X", at);
+        // A dead band of 1 µm at each end.
+        assert!((server.number("sX") - 115.92e-6).abs() < 0.3e-6, "{}", server.number("sX"));
+        for at in [0.0, 1000.0, 3500.0] {
+            assert!((acts(at) - 115.92e-6 * at).abs() < 1e-3, "{at}: {}", acts(at));
+        }
+        let writes = server.0.borrow().written.len();
+        for at in [3500.0, 0.0, 1750.0] {
+            server.set("X", Value::Number(at));
+            bench.pass(2.0);
+            assert!(bench.shown().starts_with("Run"), "{}", bench.shown());
+            let programmed =
+                bench.last.as_ref().and_then(|c| c.output.programmed).expect("a position");
+            assert!((programmed[0] - at).abs() < 1e-4, "{} at {at}", programmed[0]);
+        }
+        let memory = server.0.borrow();
+        let late =
+            memory.written[writes..].iter().flatten().any(|(name, _)| name == "oX" || name == "sX");
+        assert!(!late, "the NC follows, nothing is written");
+    }
+}
+
+/// Wherever the axis stands: no write moves it by more than the step, and it ends where it began.
+#[test]
+fn law_limits_hold_all_along_a_line() {
+    let server = with_line(1200.0, true);
+    let plan = lines(&[]).unwrap_or_else(|e| panic!("{e:?}"));
+    let step_mm = f64::from(plan.axes[0].limits.step) * plan.axes[0].increment;
+    let mut bench = Bench::new(plan, &server);
+    bench.pass(20.0);
+    let memory = server.0.borrow();
+    let (mut offset, mut slope) = (0.0, 0.0);
+    let mut most = 0.0_f64;
+    for request in &memory.written {
+        let before = (offset, slope);
+        for (name, value) in request {
+            match (name.as_str(), value) {
+                ("sX", Value::Number(value)) => slope = *value,
+                ("oX", Value::Number(value)) => offset = *value,
+                _ => {}
+            }
+        }
+        for at in [0.0, 700.0, 1200.0, 3500.0] {
+            let moved = (offset - before.0) + (slope - before.1) * (at - 1200.0);
+            most = most.max(moved.abs());
+        }
+    }
+    assert!(most > 0.0 && most < step_mm + 1e-9, "{most}");
+}
+
+/// Another value of the reference is another correction everywhere: nothing is written over it.
+#[test]
+fn a_line_that_another_source_moves_latches() {
+    let server = with_line(0.0, true);
+    let mut bench = Bench::new(lines(&[]).unwrap_or_else(|e| panic!("{e:?}")), &server);
+    bench.pass(20.0);
+    server.set("rX", Value::Number(500.0));
+    bench.pass(1.0);
+    assert!(bench.shown().starts_with("Latched"), "{}", bench.shown());
+    assert!((server.number("sX") - 115.92e-6).abs() < 0.3e-6);
+}
+
+#[test]
+fn half_a_line_is_refused() {
+    let half = [("reference = { X = \"ns=2;s=rX\" }\n", "")];
+    let both = [("heartbeat =", "acting = { X = \"ns=2;s=aX\", Y = \"ns=2;s=aY\" }\nheartbeat =")];
+    for changes in [&half, &both] {
+        let found = lines(changes).expect_err("refused");
+        assert!(found.iter().any(|f| f.contains("live-line")), "{found:?}");
+    }
+}
+
+/// Temperatures act in proportion to the position, so a line loses nothing on the day of a hall; and it is never late.
+#[test]
+fn law_a_forecast_with_lines_is_as_good_and_not_late() {
+    let read = |plan: Result<Plan, Vec<String>>| plan.unwrap_or_else(|e| panic!("{e:?}"));
+    let (with, without) =
+        (read(lines(&[])), read(plan_with(&[("part = \"whole\"", "part = \"thermal\"")])));
+    let file = root().join("examples/03_predict/torque-arm-hall.csv");
+    let text = std::fs::read_to_string(&file).expect("the log");
+    let mut problems = Diagnostics::new();
+    let log = TemperatureLog::parse("hall.csv", &text, &mut problems).expect("a log");
+    let [with, without] =
+        [with, without].map(|plan| expect(&plan, &log, None).expect("a forecast"));
+    let (line, point) = (&with.axes[0], &without.axes[0]);
+    assert_eq!(line.before, point.before);
+    assert!((line.after - point.after).abs() < 2.0, "{} and {}", line.after, point.after);
+    assert_eq!(line.moving, Some(0.0));
+    assert!(point.moving.expect("a velocity") > 0.1);
+    assert_eq!(with.axes[1].moving, without.axes[1].moving);
 }

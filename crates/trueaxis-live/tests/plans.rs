@@ -3,6 +3,8 @@
 mod rig;
 
 use rig::plan_with;
+use trueaxis_live::control::Identity;
+use trueaxis_live::start::doubt;
 
 /// What the example says when a line is changed.
 fn codes(changes: &[(&str, &str)]) -> Vec<String> {
@@ -113,7 +115,10 @@ fn a_real_control_is_bound_and_commissioned() {
             "commissioned = {{ wrote = \"10 um\", measured = \"{measured}\", evidence = \"N.N.\" }}"
         )
     };
-    assert_eq!(real("", &evidence("9.8 um")), ["live-not-bound"]);
+    let enabled = "enabled_by = \"a test\"";
+    assert_eq!(real(enabled, &evidence("9.8 um")), ["live-not-bound"]);
+    assert_eq!(real(bound, &evidence("9.8 um")), ["live-not-enabled"]);
+    let bound = &format!("{bound}\n{enabled}");
     assert_eq!(real(bound, ""), ["live-not-commissioned", "live-not-commissioned"]);
     assert_eq!(real(bound, &evidence("9.8 um")), Vec::<String>::new());
     // The wrong sign, a diameter, inches.
@@ -122,4 +127,23 @@ fn a_real_control_is_bound_and_commissioned() {
         assert!(found.iter().all(|c| c == "live-commissioning") && found.len() == 2, "{found:?}");
     }
     assert_eq!(real(bound, &format!("sign = -1\n{}", evidence("-10 um"))), Vec::<String>::new());
+}
+
+/// What is published of the calls is not of all series: a run says so where it is not.
+#[test]
+fn a_series_without_published_answers_is_named() {
+    let plan = plan_with(&[]).unwrap();
+    let of = |kind: &str| Identity {
+        kind: kind.to_owned(),
+        series: "BDE1".to_owned(),
+        version: "01.0".to_owned(),
+        axes: Vec::new(),
+        decimals: Vec::new(),
+    };
+    for known in ["0", "30", "31", "32", "35"] {
+        assert_eq!(doubt(&plan, &of(known)), None);
+    }
+    for older in ["15", "16", "18", "21"] {
+        assert!(doubt(&plan, &of(older)).is_some_and(|words| words.contains(older)));
+    }
 }

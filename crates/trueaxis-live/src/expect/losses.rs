@@ -108,7 +108,7 @@ impl Day<'_> {
         let mut heat = Heat::of(self.plan, self.log, swapped);
         for (at, now) in &self.rows {
             let read = row(self.plan, self.model, (&mut heat, *at), self.places)?;
-            let held = follow(self.plan, &read.errors, None);
+            let held = follow(self.plan, (&read.errors, self.places), None);
             for (live, worst) in worst.iter_mut().enumerate() {
                 let left = now[live].iter().zip(&held[live]).map(|(e, h)| e + h);
                 *worst = worst.max(largest(left) * shown(self.plan, live));

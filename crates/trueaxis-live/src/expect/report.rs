@@ -33,7 +33,7 @@ impl Answer for LiveExpectAnswer {
             "before",
             "after",
             "of it: age of the sample",
-            "of it: increment",
+            "of it: increment, line",
             "more while it moves",
             "U (k = 2)",
         ];

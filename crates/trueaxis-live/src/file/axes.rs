@@ -24,6 +24,8 @@ pub struct AxisPlan {
     pub commissioned: Option<Commissioned>,
     /// An offset that is late by more than this is an alarm; none by default. Unit: mm or rad.
     pub lag: Option<f64>,
+    /// The ends of the travel, where the control corrects along a line of the position. Unit: mm.
+    pub line: Option<[f64; 2]>,
 }
 
 /// Evidence that sign and scale are right.
@@ -139,7 +141,7 @@ fn read_axis(section: &Section<'_>, machine: &Machine, axis: usize) -> Option<Ax
     if let Some(evidence) = &commissioned {
         check_ratio(section, &name, evidence, sign);
     }
-    Some(AxisPlan { axis, name, increment, sign, limits, commissioned, lag })
+    Some(AxisPlan { axis, name, increment, sign, limits, commissioned, lag, line: None })
 }
 
 fn read_sign(section: &Section<'_>) -> f64 {

@@ -38,6 +38,12 @@ impl ControlPlan {
         matches!(self, Self::LinuxCnc(_))
     }
 
+    /// The ends of the travel of a live axis that it corrects along a line. Unit: mm.
+    pub fn line(&self, live: usize) -> Option<[f64; 2]> {
+        let Self::OpcUa(opcua) = self else { return None };
+        opcua.nodes.lines.get(live)?.as_ref().map(|line| line.ends)
+    }
+
     /// The time limit of one exchange.
     pub fn timeout_s(&self) -> f64 {
         match self {
@@ -61,6 +67,8 @@ impl ControlPlan {
 pub struct LinuxCncPlan {
     /// A servo thread that does not go on for so long has ended.
     pub timeout_s: f64,
+    /// The number of the setup stands in the signal `ta-setup`.
+    pub has_setup: bool,
 }
 
 /// A FANUC control of a plan.
@@ -78,6 +86,10 @@ pub struct FanucPlan {
     pub referenced: PmcAddress,
     /// The bit that forbids changes.
     pub inhibit: PmcBit,
+    /// The byte with the number of the setup: of a pallet, a work offset, a clamping.
+    pub setup: Option<PmcAddress>,
+    /// Which options and parameters make the control add what the ladder gives it, and who has set them.
+    pub enabled_by: Option<String>,
     /// The addresses of the lever PMC.
     pub pmc: Option<PmcAreas>,
     /// The mock, where there is no address.
@@ -173,7 +185,8 @@ fn read_linuxcnc(
     if !simulated && !commissions {
         check_commissioned(axes, |code, message, hint| section.error(code, message, hint));
     }
-    Some(ControlPlan::LinuxCnc(LinuxCncPlan { timeout_s }))
+    let has_setup = section.get("setup").and_then(|item| item.flag()).unwrap_or(false);
+    Some(ControlPlan::LinuxCnc(LinuxCncPlan { timeout_s, has_setup }))
 }
 
 /// Nothing is written to a machine before sign and scale of each axis were seen.
@@ -191,6 +204,12 @@ fn check_real(item: &Item<'_>, control: &FanucPlan, (axes, commissions): (&[Axis
         let message = "the plan does not say which control is at that address".to_owned();
         let hint = "identity = { kind = \"31\", series = \"G42A\", version = \"01.0\" }: where it differs, the refusal names what the control says of itself";
         item.error("live-not-bound", message, hint);
+    }
+    if control.lever == Lever::Pmc && control.enabled_by.is_none() {
+        let message =
+            "the plan does not say what makes the control add the offset of its ladder".to_owned();
+        let hint = "enabled_by = \"options and parameters, by whom, when\": they are facts of this machine, known to its builder";
+        item.error("live-not-enabled", message, hint);
     }
     if !commissions {
         check_commissioned(axes, |code, message, hint| item.error(code, message, hint));
@@ -212,7 +231,9 @@ fn read_fanuc(section: &Section<'_>) -> Option<FanucPlan> {
         "inhibit = \"R1044.0\": set by the ladder while probing, threading, setting tools",
     );
     let inhibit = inhibit.and_then(|item| read_bit(&item));
+    let setup = section.get("setup").map(|item| read_byte(&item));
     let bound = section.section("identity", read_identity);
+    let enabled_by = section.text("enabled_by").map(str::to_owned);
     let pmc = section.section("pmc", read_pmc);
     if lever == Some(Lever::Pmc) && pmc.is_none() {
         let hint = "pmc = { command, acting, heartbeat, ask_hold, tripped }: addresses of the builder of the machine";
@@ -225,6 +246,8 @@ fn read_fanuc(section: &Section<'_>) -> Option<FanucPlan> {
         bound: bound.flatten(),
         referenced: referenced?,
         inhibit: inhibit?,
+        setup: setup.map_or(Some(None), |byte| byte.map(Some))?,
+        enabled_by,
         pmc: pmc.flatten(),
         mock: None,
     })

@@ -5,10 +5,11 @@ use super::control::{Bound, check_commissioned, read_identity};
 use super::sources::read_password;
 use super::{time, word};
 use crate::control::Mode;
-use crate::opcua::NodeNames;
+use crate::opcua::{LineNodes, NodeNames};
 use std::path::{Path, PathBuf};
 use trueaxis::input::Section;
 use trueaxis::machine::Machine;
+use trueaxis::machine::axis::{AxisKind, Travel};
 
 /// How messages are protected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -134,11 +135,10 @@ pub(super) fn read_opcua(
     let have = section.require("positions_have_offset", hint).and_then(|item| item.flag());
     let modes = section.section("modes", read_modes).unwrap_or_else(usual_modes);
     let all: Vec<String> = machine.axes().iter().map(|axis| axis.name.to_string()).collect();
-    let live: Vec<String> = axes.iter().map(|axis| axis.name.clone()).collect();
-    let hint = "[control.nodes] position = { X = … }, offset = { X = … }, referenced, inhibit, running, mode, emergency; if there are such: acting, heartbeat, tripped, ask_hold, alarm, feed";
+    let hint = "[control.nodes] position = { X = … }, offset = { X = … }, referenced, inhibit, running, mode, emergency; if there are such: acting, slope, reference, heartbeat, tripped, ask_hold, alarm, feed, setup";
     let nodes = section.require("nodes", hint);
-    let nodes =
-        nodes.and_then(|item| item.section("nodes", |s| read_nodes(s, &all, &live)).flatten());
+    let nodes = nodes
+        .and_then(|item| item.section("nodes", |s| read_nodes(s, &all, (machine, axes))).flatten());
     if bound.is_none() {
         let message = "the plan does not say which control is at that address".to_owned();
         let hint = "identity = { kind = …, series = …, version = … }: where it differs, the refusal names what the server says of itself";
@@ -176,17 +176,75 @@ fn read_modes(section: &Section<'_>) -> Vec<(i32, Mode)> {
     found
 }
 
-fn read_nodes(section: &Section<'_>, all: &[String], live: &[String]) -> Option<NodeNames> {
+/// `slope` and `reference`, each with the axes along which the control corrects; of any other axis none.
+fn read_lines(
+    section: &Section<'_>,
+    (machine, axes): (&Machine, &[AxisPlan]),
+) -> Option<Vec<Option<LineNodes>>> {
+    let [slopes, references] = ["slope", "reference"].map(|key| {
+        let named = |s: &Section<'_>| {
+            let read = |axis: &AxisPlan| {
+                let stated = s.get(&axis.name).is_some();
+                if stated { node(s, &axis.name).map(Some) } else { Some(None) }
+            };
+            axes.iter().map(read).collect::<Option<Vec<_>>>()
+        };
+        section.section(key, named).unwrap_or_else(|| Some(vec![None; axes.len()]))
+    });
+    let mut lines = Vec::new();
+    for (axis, (slope, reference)) in axes.iter().zip(slopes?.into_iter().zip(references?)) {
+        let fault = |message: String, hint: &str| section.error("live-line", message, hint);
+        let own = &machine.axes()[axis.axis];
+        lines.push(match (slope, reference, own.travel) {
+            (None, None, _) => None,
+            (Some(slope), Some(reference), Travel::Between(from, to))
+                if own.kind == AxisKind::Linear =>
+            {
+                Some(LineNodes { slope, reference, ends: [from, to] })
+            }
+            (Some(_), Some(_), _) => {
+                let message = format!("axis {} has no two ends to draw a line between", axis.name);
+                fault(message, "slope is of a linear axis with its travel in the machine file");
+                return None;
+            }
+            _ => {
+                let message = format!("axis {} has one of slope and reference", axis.name);
+                fault(
+                    message,
+                    "both: slope = { X = … } (SD43910), reference = { X = … } (SD43920)",
+                );
+                return None;
+            }
+        });
+    }
+    Some(lines)
+}
+
+fn read_nodes(
+    section: &Section<'_>,
+    all: &[String],
+    (machine, axes): (&Machine, &[AxisPlan]),
+) -> Option<NodeNames> {
+    let live: Vec<String> = axes.iter().map(|axis| axis.name.clone()).collect();
+    let live = live.as_slice();
     let (positions, offsets) =
         (of_axes(section, "position", all), of_axes(section, "offset", live));
+    let lines = read_lines(section, (machine, axes))?;
     let acting = section.get("acting").map(|_| of_axes(section, "acting", live));
+    if acting.is_some() && lines.iter().any(Option::is_some) {
+        let message = "`acting` is one number, and a line has two".to_owned();
+        let hint = "leave `acting` out: with slope and reference what acts is computed from them";
+        section.error("live-line", message, hint);
+    }
     let [referenced, inhibit, running, mode, emergency] =
         ["referenced", "inhibit", "running", "mode", "emergency"].map(|key| needed(section, key));
-    let [alarm, feed, heartbeat, ask_hold, tripped] =
-        ["alarm", "feed", "heartbeat", "ask_hold", "tripped"].map(|key| node(section, key));
+    let [alarm, feed, heartbeat, ask_hold, tripped, setup] =
+        ["alarm", "feed", "heartbeat", "ask_hold", "tripped", "setup"]
+            .map(|key| node(section, key));
     Some(NodeNames {
         positions: positions?,
         offsets: offsets?,
+        lines,
         acting: acting.map_or(Some(None), |found| found.map(Some))?,
         referenced: referenced?,
         inhibit: inhibit?,
@@ -198,6 +256,7 @@ fn read_nodes(section: &Section<'_>, all: &[String], live: &[String]) -> Option<
         heartbeat,
         ask_hold,
         tripped,
+        setup,
     })
 }
 

@@ -35,6 +35,8 @@ pub struct FanucSettings {
     pub referenced: PmcAddress,
     /// Set by the ladder while offsets must not change.
     pub inhibit: PmcBit,
+    /// The byte with the number of the setup.
+    pub setup: Option<PmcAddress>,
     /// The addresses of the lever [`Lever::Pmc`].
     pub pmc: Option<PmcAreas>,
 }
@@ -237,10 +239,12 @@ impl<W: Wire> Control for Fanuc<W> {
             Lever::Ext => cnc.extend(self.offset_calls()),
             Lever::Pmc => pmc.extend(self.offset_calls()),
         }
+        pmc.extend(settings.setup.map(|byte| read_pmc(byte, 1, 0)));
         let cnc = self.ask(&cnc, now_s)?;
         let pmc = self.ask(&pmc, now_s)?;
         let byte = |reply: &Reply| reply.data.first().copied().ok_or_else(|| unreadable(reply));
         let (referenced, inhibit) = (byte(&pmc[0])?, byte(&pmc[1])?);
+        let setup = settings.setup.and(pmc.last()).map(byte).transpose()?.map(i32::from);
         let homed = settings.live.iter().all(|live| {
             let bit = settings.numbers[*live].saturating_sub(1);
             bit < 8 && referenced >> bit & 1 == 1
@@ -275,6 +279,7 @@ impl<W: Wire> Control for Fanuc<W> {
             tool_length_mm: None,
             standing_tip_mm: None,
             block: block(&cnc[3], &cnc[4]),
+            setup,
         })
     }
 

@@ -83,6 +83,11 @@ pub enum Reason {
         /// What it says.
         what: String,
     },
+    /// Another setup is in the machine, and its zero was never touched.
+    Setup {
+        /// Its number.
+        number: i32,
+    },
     /// The target is no number.
     NotFinite,
     /// The target has jumped.
@@ -128,6 +133,9 @@ impl fmt::Display for Reason {
             Self::Sensor { sensor, what } => write!(f, "sensor {sensor}: {what}"),
             Self::Workpiece { sensor, what } => write!(f, "workpiece sensor {sensor}: {what}"),
             Self::Model { what } => write!(f, "{what}"),
+            Self::Setup { number } => {
+                write!(f, "setup {number}: its zero was not touched yet")
+            }
             Self::NotFinite => write!(f, "the target is no number"),
             Self::Jump => write!(f, "the target has jumped"),
             Self::WriteRefused => write!(f, "the control refuses what is written"),

@@ -118,6 +118,11 @@ impl FanucMock {
         }
     }
 
+    /// A byte of the PMC that the ladder of its builder sets.
+    pub fn set_byte(&mut self, at: PmcAddress, value: u8) {
+        self.bytes.insert((at.letter, at.byte), value);
+    }
+
     /// The time until which it has gone on, s.
     pub fn now_s(&self) -> f64 {
         self.now_s

@@ -1,7 +1,8 @@
 //! `datum.json`: the zero of the part over restarts; and the file by which another process asks for one.
 
 use super::kept::kept;
-use crate::datum::{Datum, DatumOrder};
+use crate::datum::DatumOrder;
+use crate::setups::SetupDatum;
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::io;
@@ -11,30 +12,30 @@ const KEPT: &str = "datum.json";
 /// Its text is what is asked: `take` or `clear`.
 const ASKED: &str = "datum-asked";
 
-/// A zero of the part, and when it was touched.
+/// The zeros of the setups, and when the last one was touched.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct KeptDatum {
-    /// The plan and machine file that it was touched under.
+pub struct KeptDatums {
+    /// The plan and machine file that they were touched under.
     pub plan_hash: String,
     /// When, seconds since 1970 (UTC).
     pub date_s: u64,
-    /// What was missing.
-    pub datum: Datum,
+    /// What was missing at each.
+    pub zeros: Vec<SetupDatum>,
 }
 
-/// The zero that a run of this folder has left.
+/// The zeros that a run of this folder has left.
 ///
 /// # Errors
 /// A file that cannot be read.
-pub fn kept_datum(folder: &Path) -> Result<Option<KeptDatum>, String> {
+pub fn kept_datums(folder: &Path) -> Result<Option<KeptDatums>, String> {
     kept(folder, KEPT)
 }
 
-/// Keeps a zero, or removes it.
+/// Keeps zeros, or removes them.
 ///
 /// # Errors
 /// What the disk says.
-pub(super) fn keep(folder: &Path, kept: Option<&KeptDatum>) -> Result<(), String> {
+pub(super) fn keep(folder: &Path, kept: Option<&KeptDatums>) -> Result<(), String> {
     let path = folder.join(KEPT);
     let done = match kept {
         Some(kept) => {

@@ -4,7 +4,7 @@
 //! `owned` has two lines of fixed length that are written in turn, each with a number and a checksum: a run that is killed
 //! while it writes one leaves the other. The journal only grows by events, never by cycles.
 
-use super::datum::{KeptDatum, asked, keep};
+use super::datum::{KeptDatums, asked, keep};
 use super::heat::{KEPT, KeptHeat};
 use super::history::history_file;
 use super::latest::Latest;
@@ -14,9 +14,10 @@ use super::{Event, Owner, Store};
 use crate::clock::date_s;
 use crate::control::Identity;
 use crate::cycle::CycleInput;
-use crate::datum::{Datum, DatumOrder};
+use crate::datum::DatumOrder;
 use crate::governor::{Order, Owned};
 use crate::memory::HeatOfRun;
+use crate::setups::SetupDatum;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::fs::{self, File, OpenOptions};
@@ -263,11 +264,11 @@ impl Store for DiskStore {
         self.metrics.put(text)
     }
 
-    fn datum(&mut self, datum: Option<&Datum>) -> Result<(), String> {
-        let kept = datum.map(|datum| KeptDatum {
+    fn datums(&mut self, all: &[SetupDatum]) -> Result<(), String> {
+        let kept = (!all.is_empty()).then(|| KeptDatums {
             plan_hash: self.plan_hash.clone(),
             date_s: date_s(),
-            datum: datum.clone(),
+            zeros: all.to_vec(),
         });
         keep(&self.folder, kept.as_ref())
     }

@@ -4,6 +4,7 @@ use super::{Event, Store};
 use crate::cycle::CycleInput;
 use crate::datum::Datum;
 use crate::governor::{Order, Owned};
+use crate::setups::SetupDatum;
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -18,8 +19,8 @@ pub struct Noted {
     pub cycles: Vec<(CycleInput, Order)>,
     /// Nothing can be kept.
     pub fails: bool,
-    /// The zero of the part.
-    pub datum: Option<Datum>,
+    /// The zeros of all setups.
+    pub datums: Vec<SetupDatum>,
     /// The part that is made.
     pub part: Option<String>,
     /// The lines of all records.
@@ -31,6 +32,13 @@ pub struct Noted {
 /// Keeps everything in memory; all clones keep in the same place.
 #[derive(Debug, Clone, Default)]
 pub struct MemoryStore(pub Rc<RefCell<Noted>>);
+
+impl Noted {
+    /// The zero that was touched last.
+    pub fn datum(&self) -> Option<Datum> {
+        self.datums.last()?.datum.clone()
+    }
+}
 
 impl MemoryStore {
     fn unless_failing(&self) -> Result<(), String> {
@@ -55,9 +63,9 @@ impl Store for MemoryStore {
         self.unless_failing()
     }
 
-    fn datum(&mut self, datum: Option<&Datum>) -> Result<(), String> {
+    fn datums(&mut self, all: &[SetupDatum]) -> Result<(), String> {
         self.unless_failing()?;
-        self.0.borrow_mut().datum = datum.cloned();
+        self.0.borrow_mut().datums = all.to_vec();
         Ok(())
     }
 
