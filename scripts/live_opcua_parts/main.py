@@ -1,6 +1,6 @@
 """Runs `trueaxis live` against server.py and checks what the server saw.
 
-    main.py TRUEAXIS FOLDER
+    main.py TRUEAXIS FOLDER [PACKAGES]     PACKAGES: a folder with node_modules, for server.mjs besides
 """
 import json
 import os
@@ -76,18 +76,20 @@ NODE = '{{ opc_ua = "opc.tcp://127.0.0.1:{port}", node = "ns={space};s={name}", 
 class Control:
     """A server of its own, in a folder of its own."""
 
-    def __init__(self, python, folder, *more):
+    def __init__(self, python, folder, *more, packages=None):
         folder.mkdir(parents=True, exist_ok=True)
         self.folder = folder
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             self.port = free.getsockname()[1]
         command = [python, str(HERE / "server.py"), str(self.port), str(folder), *more]
+        if packages:
+            command = ["node", str(HERE / "server.mjs"), str(self.port), str(folder), packages]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=open(folder / "server.log", "w"), text=True)
-        words = self.process.stdout.readline().split()
-        if not words:
+        said = next((line.split() for line in self.process.stdout if line.startswith("ready")), None)
+        if said is None:
             sys.exit(f"the server did not start: {folder / 'server.log'}")
-        self.space = words[1]
+        self.space = said[1]
 
     def plan(self, security, login="", node=None, line=False):
         """With `node` the server measures both scales, in one session; it is what else is said of them. With `line` it corrects X by itself."""
@@ -141,6 +143,19 @@ def main():
     python = sys.executable
     control = Control(python, runs / "none")
     whole(control, control.plan("none"), "without security")
+
+    if len(sys.argv) > 3:
+        control = Control(python, runs / "node", packages=sys.argv[3])
+        whole(control, control.plan("none"), "node-opcua, without security")
+        control = Control(python, runs / "node-encrypted", packages=sys.argv[3])
+        plan = control.plan("sign-and-encrypt")
+        live(trueaxis, plan, 2).communicate(timeout=60)
+        for file in (control.folder / "pki" / "rejected").glob("*"):
+            shutil.move(file, control.folder / "pki" / "trusted" / file.name)
+        # async-opcua 0.19 looks for the URI of a server in the first alternative name of its certificate only; here it is the last.
+        text, _ = live(trueaxis, plan, 2).communicate(timeout=60)
+        control.end()
+        check("node-opcua, signed and encrypted: refused, its certificate does not name its URI first", "BadCertificateUriInvalid" in text, text if "Uri" not in text else "")
 
     control = Control(python, runs / "encrypted")
     secret = control.folder / "secret"

@@ -34,8 +34,8 @@ pub struct Run<'a> {
     dry: bool,
     counts: Counts,
     datum: Option<DatumOrder>,
-    /// The zeros that the store has.
-    kept: Vec<SetupDatum>,
+    /// The zeros that the store has; none of a run that commissions an axis, which knows of no zeros and must not replace them.
+    kept: Option<Vec<SetupDatum>>,
     memory: Option<HeatOfRun>,
 }
 
@@ -82,7 +82,7 @@ impl<'a> Run<'a> {
             dry: false,
             counts: Counts::default(),
             datum: None,
-            kept: Vec::new(),
+            kept: Some(Vec::new()),
             memory: None,
         }
     }
@@ -110,6 +110,7 @@ impl<'a> Run<'a> {
     #[must_use]
     pub fn with_target(mut self, offsets: Vec<f64>) -> Self {
         self.correction = self.correction.with_target(offsets);
+        self.kept = None;
         self
     }
 
@@ -195,9 +196,9 @@ impl<'a> Run<'a> {
     fn keep_datums(&mut self, now_s: f64, input: &CycleInput, output: &CycleOutput) {
         let now = self.correction.setups().known();
         // Not kept, so it would be lost at a restart: the offsets wait until the journal can be written.
-        if now != self.kept {
+        if self.kept.as_ref().is_some_and(|kept| now != kept.as_slice()) {
             match self.store.datums(now) {
-                Ok(()) => self.kept = now.to_vec(),
+                Ok(()) => self.kept = Some(now.to_vec()),
                 Err(_) => self.journal_fails = true,
             }
         }

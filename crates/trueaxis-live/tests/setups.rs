@@ -124,3 +124,14 @@ fn the_first_number_has_the_zero_of_the_run_before() {
     setups.clear_to(None);
     assert_eq!((setups.datum(), setups.known().len()), (None, 1));
 }
+
+/// To commission an axis is no run with a part: the zeros of the folder stay, whatever the control shows.
+#[test]
+fn commissioning_replaces_no_zero() {
+    let rig = rig();
+    let mut rig = Rig { run: rig.run.with_target(vec![10.0, 0.0]), ..rig };
+    clamp(&rig, 1);
+    rig.pass(5.0);
+    assert_eq!((rig.state(), rig.acting()), (State::Run, vec![10, 0]), "{}", rig.story());
+    assert!(rig.store.0.borrow().datums.is_empty());
+}
