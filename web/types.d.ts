@@ -7697,6 +7697,10 @@ export interface ExpectedAxis {
    */
   unit: string;
   /**
+   * The control corrects it along a line of the position.
+   */
+  on_line: boolean;
+  /**
    * The largest error without the correction. Unit: that of `unit`.
    */
   before: number;

@@ -16,10 +16,10 @@ const { OPCUACertificateManager } = require("node-opcua-certificate-manager");
 const { MessageSecurityMode, SecurityPolicy } = require("node-opcua-secure-channel");
 
 const at = { X: 3500, Y: 2300, Z: 400 };
-const values = { offsetX: 0, offsetY: 0, slopeX: 0, referenceX: 1200, mode: 2, beat: 0 };
+const values = { offsetX: 0, offsetY: 0, mode: 2, beat: 0 };
 const flags = { referenced: true, running: true, inhibit: false, emergency: false, tripped: false, hold: false };
 const kinds = { mode: DataType.Int16, beat: DataType.Byte };
-const seen = { largest_mm: [0, 0], largest_step_mm: 0, beats: 0, tripped: 0, slope: 0, offsets: [0, 0] };
+const seen = { largest_mm: [0, 0], largest_step_mm: 0, beats: 0, offsets: [0, 0] };
 
 function look(name, before, now) {
   const axis = ["offsetX", "offsetY"].indexOf(name);

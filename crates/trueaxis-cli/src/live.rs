@@ -148,12 +148,14 @@ Give it while the axes stand where the zero of the part was touched, the correct
 there is in the zero already; without this it would be corrected twice. With a run that has reached its target nothing
 is subtracted; with one that holds, or a --dry-run, as much as it lacks. It is kept for the next run of this plan. If it
 was touched before, without any run, write it into the plan: [datum] at = { ... }, temperatures = { ... }.
+Where the control numbers its setups, it is the zero of the one that is in the machine.
 Exit status: 0 done, 1 the run refused it, 2 unusable input.")]
 struct DatumArguments {
     /// The plan
     #[arg(value_name = "LIVE.toml")]
     plan: PathBuf,
-    /// Subtract nothing any more; a [datum] of the plan counts again
+    /// Subtract nothing any more; a [datum] of the plan counts again. In a run for the setup that is in the machine,
+    /// without one for all
     #[arg(long)]
     clear: bool,
 }

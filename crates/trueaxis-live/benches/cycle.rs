@@ -41,23 +41,10 @@ impl Control for Moving {
     fn read(&mut self, _: f64) -> Result<Seen, LinkFault> {
         self.at.iter_mut().zip(&self.by).for_each(|(at, by)| *at += by);
         Ok(Seen {
-            positions: self.at.clone(),
-            offsets: self.held.clone(),
             acting: Some(self.held.clone()),
-            homed: true,
-            emergency: false,
-            alarm: false,
-            mode: Mode::Automatic,
-            cutting: true,
-            inhibited: false,
-            tripped: false,
-            released: false,
             feed_mm_per_min: 1000.0,
             frame: self.frame,
-            tool_length_mm: None,
-            standing_tip_mm: None,
-            block: None,
-            setup: None,
+            ..Seen::moving(self.at.clone(), self.held.clone())
         })
     }
 

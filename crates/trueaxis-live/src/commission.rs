@@ -80,11 +80,11 @@ pub fn commission(
     let mut target = vec![0.0; plan.settings.axes.len()];
     // As a person would type it at the control: `sign` is what is tried. Of a line both ends: the same all along the axis.
     let due = asked.by / plan.axes[live].increment;
-    let places = plan.places(live);
-    target[places.clone()].fill(due);
+    let own = plan.offsets_of(live);
+    target[own.clone()].fill(due);
     let slew_s = (due / plan.axes[live].limits.slew_per_s).abs();
     let run = Run::new(&plan, owned, control, sensors_of(&plan), store).with_target(target.clone());
-    let tried = drive((run, &plan), (&clock, stopped), (places, due.round()), (slew_s, tell, said));
+    let tried = drive((run, &plan), (&clock, stopped), (own, due.round()), (slew_s, tell, said));
     Ok((plan, tried))
 }
 
@@ -113,7 +113,7 @@ fn axis_of(
 fn drive(
     (mut run, plan): (Run<'_>, &Plan),
     (clock, stopped): (&RealClock, Stopped<'_>),
-    (places, due): (Range<usize>, f64),
+    (own, due): (Range<usize>, f64),
     (slew_s, tell, said): (f64, Steps<'_>, Said<'_>),
 ) -> Tried {
     let (mut stands, mut found) = (false, None);
@@ -141,7 +141,7 @@ fn drive(
                 None => {}
             }
             ending = found.is_some().then_some(now_s);
-        } else if is_there(&cycle, order.state, (&places, due, &mut before)) {
+        } else if is_there(&cycle, order.state, (&own, due, &mut before)) {
             stands = true;
             tell(Step::Stands);
         } else if now_s > slew_s + MOST_WAIT_S {
@@ -155,7 +155,7 @@ fn drive(
 fn is_there(
     cycle: &crate::run::Cycle,
     state: State,
-    (places, due, before): (&Range<usize>, f64, &mut Vec<f64>),
+    (own, due, before): (&Range<usize>, f64, &mut Vec<f64>),
 ) -> bool {
     let Ok(seen) = &cycle.input.seen else { return false };
     let acting = seen.acting.as_ref().unwrap_or(&seen.offsets);
@@ -163,7 +163,7 @@ fn is_there(
     state == State::Run
         && stands
         && acting
-            .get(places.clone())
+            .get(own.clone())
             .is_some_and(|all| all.iter().all(|held| (f64::from(*held) - due).abs() < 0.5))
 }
 

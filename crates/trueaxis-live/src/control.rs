@@ -103,6 +103,31 @@ pub struct Seen {
     pub setup: Option<i32>,
 }
 
+impl Seen {
+    /// Of a control in automatic that moves and lacks nothing, with positions (mm or rad) and offsets (least increments).
+    pub fn moving(positions: Vec<f64>, offsets: Vec<i32>) -> Self {
+        Self {
+            positions,
+            offsets,
+            acting: None,
+            homed: true,
+            emergency: false,
+            alarm: false,
+            mode: Mode::Automatic,
+            cutting: true,
+            inhibited: false,
+            tripped: false,
+            released: false,
+            feed_mm_per_min: 0.0,
+            frame: Frame::Machine,
+            tool_length_mm: None,
+            standing_tip_mm: None,
+            block: None,
+            setup: None,
+        }
+    }
+}
+
 /// What is sent in one cycle.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Sent {

@@ -74,8 +74,6 @@ pub struct Correction {
     governor: Governor,
     last_s: Option<f64>,
     constant: Option<Vec<f64>>,
-    /// The zero of the part that the plan knows of.
-    planned: Option<Datum>,
     setups: Setups,
     /// Where the program stood in the last cycle.
     stood: Option<Command>,
@@ -89,13 +87,7 @@ pub struct Correction {
 impl Correction {
     /// Of a plan, with what the journal knows.
     pub fn new(plan: &Plan, owned: Option<Owned>) -> Self {
-        let live = |axis: &crate::file::AxisPlan| LiveAxis {
-            axis: axis.axis,
-            increment: axis.increment,
-            sign: axis.sign,
-            line: axis.line,
-        };
-        let axes = plan.axes.iter().map(live).collect();
+        let axes = plan.axes.iter().map(LiveAxis::from).collect();
         let model = Model::new(plan.machine.clone(), plan.of, plan.part, axes);
         let model = match plan.control.takes_pose() {
             // A plan of a machine that has no such form is refused when it is read.
@@ -108,7 +100,6 @@ impl Correction {
             governor: Governor::new(plan.settings.clone(), owned),
             last_s: None,
             constant: None,
-            planned: None,
             setups: Setups::default(),
             stood: None,
             acts: None,
@@ -117,8 +108,9 @@ impl Correction {
         };
         // A session refuses a plan whose zero cannot be computed.
         let planned = plan.datum.as_ref().and_then(|p| correction.planned_datum(p).ok());
-        correction.model.set_datum(planned.clone());
-        Self { planned, ..correction }
+        correction.setups = Setups::new(planned, Vec::new());
+        correction.count_from_zero();
+        correction
     }
 
     /// The zero of the part that the plan knows of: what is missing there without any correction.
@@ -195,7 +187,7 @@ impl Correction {
         let asked = input.datum.as_ref();
         let datum = asked.map(|order| self.order_datum(order, &warm, (seen, programmed.as_ref())));
         let target = match &self.constant {
-            Some(offsets) => Ok(Target::constant(offsets)),
+            Some(offsets) => Ok(self.model.constant(offsets, programmed.as_ref())),
             None => warm.and_then(|()| match self.setups.fault() {
                 Some(reason) => Err(reason),
                 None => self.target(frame, programmed.as_ref()),
@@ -232,14 +224,14 @@ impl Correction {
         let fits = |datum: &Datum| datum.missing.len() == axes;
         let other = || -> DatumOutcome { Err("it is of other axes".to_owned()) };
         match order {
-            DatumOrder::Clear => self.setups.clear_to(self.planned.clone()),
+            DatumOrder::Clear => self.setups.clear(),
             DatumOrder::Set(datum) if !fits(datum) => return other(),
             DatumOrder::Set(datum) => self.setups.take(Some(datum.clone())),
             DatumOrder::Kept(all) if !all.iter().flat_map(|s| &s.datum).all(fits) => {
                 return other();
             }
             DatumOrder::Kept(all) => {
-                self.setups = Setups::of(all.clone());
+                self.setups.keep(all.clone());
                 self.show_setup(seen.and_then(|seen| seen.setup));
             }
             DatumOrder::Take => {
@@ -253,16 +245,14 @@ impl Correction {
 
     /// Another setup in the machine has another zero.
     fn show_setup(&mut self, number: Option<i32>) {
-        if self.setups.show(number, self.planned.as_ref()) {
+        if self.setups.show(number) {
             self.count_from_zero();
         }
     }
 
     /// Another zero is no jump of the machine, and no speed of the target: the offsets go there by their slew.
     fn count_from_zero(&mut self) {
-        let has_own = !self.setups.known().is_empty();
-        let datum = if has_own { self.setups.datum() } else { self.planned.as_ref() };
-        self.model.set_datum(datum.cloned());
+        self.model.set_datum(self.setups.datum().cloned());
         self.governor.forget_target();
         self.before = None;
     }

@@ -78,6 +78,8 @@ pub struct ExpectedAxis {
     pub axis: String,
     /// um or urad.
     pub unit: &'static str,
+    /// The control corrects it along a line of the position.
+    pub on_line: bool,
     /// The largest error without the correction. Unit: that of `unit`.
     pub before: f64,
     /// The largest error with it, standing still. Unit: that of `unit`.
@@ -250,13 +252,8 @@ fn moments(times_s: &[f64], most: usize) -> Vec<(usize, bool)> {
 }
 
 fn model_of(plan: &Plan) -> Model {
-    let live = |a: &AxisPlan| LiveAxis {
-        axis: a.axis,
-        increment: a.increment,
-        sign: a.sign,
-        line: a.line,
-    };
-    Model::new(plan.machine.clone(), plan.of, plan.part, plan.axes.iter().map(live).collect())
+    let axes = plan.axes.iter().map(LiveAxis::from).collect();
+    Model::new(plan.machine.clone(), plan.of, plan.part, axes)
 }
 
 fn places(machine: &Machine, axis: usize) -> Vec<f64> {
@@ -503,6 +500,7 @@ impl Found {
             ExpectedAxis {
                 axis: own.name.clone(),
                 unit: if machine.kind == AxisKind::Linear { "um" } else { "urad" },
+                on_line: own.line.is_some(),
                 before: worst.before * scale,
                 after: worst.after * scale,
                 by_age: worst.by_age * scale,

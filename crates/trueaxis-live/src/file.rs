@@ -63,20 +63,16 @@ impl Plan {
 
     /// The same where no position is known: the larger of two.
     pub fn largest(&self, counts: &[i32]) -> Vec<f64> {
-        let mut counts = counts.iter().map(|n| f64::from(*n));
-        let larger = |a: f64, b: f64| if b.abs() > a.abs() { b } else { a };
-        let of = |axis: &AxisPlan| {
-            let first = counts.next().unwrap_or(0.0);
-            if axis.line.is_some() { larger(first, counts.next().unwrap_or(0.0)) } else { first }
-        };
-        self.axes.iter().map(of).collect()
+        let own = |live| counts.get(self.offsets_of(live)).unwrap_or_default();
+        let largest =
+            |live| own(live).iter().max_by_key(|n| n.abs()).map_or(0.0, |n| f64::from(*n));
+        (0..self.axes.len()).map(largest).collect()
     }
 
-    /// The places of a live axis among the offsets of the control.
-    pub fn places(&self, live: usize) -> std::ops::Range<usize> {
-        let of = |axis: &AxisPlan| if axis.line.is_some() { 2 } else { 1 };
-        let from: usize = self.axes.iter().take(live).map(of).sum();
-        from..from + self.axes.get(live).map_or(0, of)
+    /// Which offsets of the control are those of a live axis.
+    pub fn offsets_of(&self, live: usize) -> std::ops::Range<usize> {
+        let from: usize = self.axes.iter().take(live).map(AxisPlan::offsets).sum();
+        from..from + self.axes.get(live).map_or(0, AxisPlan::offsets)
     }
 }
 
@@ -142,10 +138,7 @@ fn read(root: &Section<'_>, path: &Path, commissions: bool) -> Option<Plan> {
     let control = control?;
     axes.iter_mut().enumerate().for_each(|(i, axis)| axis.line = control.line(i));
     // Of a line both ends have the limits of the axis.
-    let limits = axes.iter().flat_map(|axis| {
-        let offsets = if axis.line.is_some() { 2 } else { 1 };
-        std::iter::repeat_n(axis.limits, offsets)
-    });
+    let limits = axes.iter().flat_map(|axis| std::iter::repeat_n(axis.limits, axis.offsets()));
     let settings = Settings {
         axes: limits.collect(),
         window_s,

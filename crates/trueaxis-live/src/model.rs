@@ -92,13 +92,6 @@ pub struct Target {
     pub is_clamped: bool,
 }
 
-impl Target {
-    /// Offsets that no model gives.
-    pub fn constant(offsets: &[f64]) -> Self {
-        Self { offsets: offsets.to_vec(), here: Vec::new(), is_clamped: false }
-    }
-}
-
 impl Model {
     /// Of a machine whose active compensation is subtracted already.
     pub fn new(machine: Machine, of: Compensation, part: Part, axes: Vec<LiveAxis>) -> Self {
@@ -317,6 +310,16 @@ impl Model {
             }
         }
         Ok(Target { offsets, here, is_clamped })
+    }
+
+    /// Offsets that do not depend on anything, as a target at a position.
+    pub fn constant(&self, offsets: &[f64], at: Option<&Command>) -> Target {
+        let here = |at| self.at_position(offsets.iter().copied(), at).collect();
+        Target {
+            offsets: offsets.to_vec(),
+            here: at.map_or_else(Vec::new, here),
+            is_clamped: false,
+        }
     }
 
     /// The line along an axis that comes closest to what is wanted there, the others where they are.

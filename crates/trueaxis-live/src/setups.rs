@@ -23,15 +23,21 @@ pub struct SetupDatum {
 /// All zeros of a run, and which one counts.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Setups {
+    /// The zero of the plan, where none was touched.
+    planned: Option<Datum>,
     known: Vec<SetupDatum>,
     now: Option<i32>,
-    is_open: bool,
 }
 
 impl Setups {
-    /// Of what an earlier run has left.
-    pub fn of(known: Vec<SetupDatum>) -> Self {
-        Self { known, ..Self::default() }
+    /// Of a plan, with what an earlier run has left.
+    pub fn new(planned: Option<Datum>, known: Vec<SetupDatum>) -> Self {
+        Self { planned, known, now: None }
+    }
+
+    /// The same with what an earlier run has left.
+    pub fn keep(&mut self, known: Vec<SetupDatum>) {
+        *self = Self::new(self.planned.take(), known);
     }
 
     /// All that must be kept for the next run.
@@ -46,12 +52,15 @@ impl Setups {
 
     /// The zero that counts.
     pub fn datum(&self) -> Option<&Datum> {
-        self.entry()?.datum.as_ref()
+        match self.entry() {
+            Some(entry) => entry.datum.as_ref(),
+            None => self.planned.as_ref().filter(|_| self.now.is_none()),
+        }
     }
 
     /// Why there is no target: the zero of this setup was never touched.
     pub fn fault(&self) -> Option<Reason> {
-        let number = self.now.filter(|_| self.is_open)?;
+        let number = self.now.filter(|_| self.entry().is_none())?;
         Some(Reason::Setup { number })
     }
 
@@ -59,37 +68,34 @@ impl Setups {
         self.known.iter().find(|known| known.setup == self.now)
     }
 
-    /// What the control says now; whether another zero counts from here on.
-    pub fn show(&mut self, number: Option<i32>, planned: Option<&Datum>) -> bool {
+    /// What the control says now; whether it says another number than before.
+    pub fn show(&mut self, number: Option<i32>) -> bool {
         if number.is_none() || number == self.now {
             return false;
         }
-        let is_first = self.known.iter().all(|known| known.setup.is_none());
-        let before = self.entry().map_or(planned.cloned(), |entry| entry.datum.clone());
+        let before = self.datum().cloned();
         self.now = number;
-        if is_first {
+        if self.known.iter().all(|known| known.setup.is_none()) {
             self.known = vec![SetupDatum { setup: number, datum: before }];
         }
-        self.is_open = self.entry().is_none();
-        !is_first && !self.is_open
+        true
     }
 
     /// The zero of this setup from now on.
     pub fn take(&mut self, datum: Option<Datum>) {
-        self.clear();
+        self.forget();
         self.known.push(SetupDatum { setup: self.now, datum });
-        self.is_open = false;
     }
 
-    /// Nothing is known of this setup but what the plan says; of a numbered one that is known, too.
-    pub fn clear_to(&mut self, planned: Option<Datum>) {
+    /// The zero of this setup is that of the plan again.
+    pub fn clear(&mut self) {
         match self.now {
-            Some(_) => self.take(planned),
-            None => self.clear(),
+            Some(_) => self.take(self.planned.clone()),
+            None => self.forget(),
         }
     }
 
-    fn clear(&mut self) {
+    fn forget(&mut self) {
         let now = self.now;
         self.known.retain(|known| known.setup != now);
     }

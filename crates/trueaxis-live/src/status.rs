@@ -171,7 +171,7 @@ pub fn live_state(
     let acting = seen.and_then(|seen| counted(seen.acting.as_ref()?));
     let lag = cycle.output.lag.as_ref().zip(at);
     let lag = lag.map(|(lag, at)| plan.at_position(lag.iter().copied(), &at));
-    let target = cycle.output.target.as_ref().map(|target| &target.here);
+    let target = cycle.output.target.as_ref().map(|target| &target.offsets);
     let axes = plan.axes.iter().enumerate().map(|(i, axis)| {
         let is_linear = is_linear(plan, axis);
         let scale = axis.increment * if is_linear { 1e3 } else { 1e6 };
@@ -414,7 +414,9 @@ pub fn state_report<'a>(report: Report<'a>, last: &LiveState) -> Report<'a> {
         last.cycles, last.missed, last.writes, last.failed_writes
     );
     let part = last.part.iter().map(|part| format!("part {part} is recorded"));
-    part.fold(report, Report::line)
+    let setup = last.setup.iter().map(|number| format!("setup {number}"));
+    part.chain(setup)
+        .fold(report, Report::line)
         .line(format!(
             "{}: {} ({} s after the start)",
             last.state,

@@ -4,7 +4,6 @@ use trueaxis_live::control::{Mode, Seen};
 use trueaxis_live::governor::{
     AfterHold, AxisLimits, Governor, Inputs, OnDifference, Reason, Settings, State,
 };
-use trueaxis_live::pose::Frame;
 
 fn settings(hold_s: f64) -> Settings {
     let axis = AxisLimits { limit: 500, step: 20, slew_per_s: 100.0, jump: 60, dead_band: 1.0 };
@@ -20,35 +19,13 @@ fn settings(hold_s: f64) -> Settings {
     }
 }
 
-fn cutting() -> Seen {
-    Seen {
-        positions: vec![0.0; 3],
-        offsets: vec![0],
-        acting: None,
-        homed: true,
-        emergency: false,
-        alarm: false,
-        mode: Mode::Automatic,
-        cutting: true,
-        inhibited: false,
-        tripped: false,
-        released: false,
-        feed_mm_per_min: 0.0,
-        frame: Frame::Machine,
-        tool_length_mm: None,
-        standing_tip_mm: None,
-        block: None,
-        setup: None,
-    }
-}
-
 /// A target that is missing for longer than the hold time is ramped down in the first cycle after that time, whatever the period.
 #[test]
 fn law_a_hold_ends_in_the_first_cycle_after_its_time() {
     let hold_s = 2.05;
     for period_s in [0.02, 0.1, 0.3] {
         let mut governor = Governor::new(settings(hold_s), None);
-        let seen = cutting();
+        let seen = Seen::moving(vec![0.0; 3], vec![0]);
         let mut step = |target: Result<&[f64], Reason>| {
             let seen = Ok(&seen);
             let inputs = Inputs { seen, target, run: true, confirmed: false, journal_fails: false };

@@ -12,7 +12,6 @@ use trueaxis_live::focas::{PmcAddress, PmcBit};
 use trueaxis_live::governor::{
     AfterHold, AxisLimits, Governor, Inputs, OnDifference, Owned, Reason, Settings, State,
 };
-use trueaxis_live::pose::Frame;
 
 /// A generator whose stream is the same on every computer: SplitMix64 of Steele, Lea and Flood 2014.
 struct Random(u64);
@@ -74,29 +73,6 @@ struct Counted {
     states: std::collections::BTreeSet<String>,
 }
 
-/// A control that cuts and holds these offsets.
-fn cutting(offsets: Vec<i32>) -> Seen {
-    Seen {
-        positions: vec![0.0; 3],
-        offsets,
-        acting: None,
-        homed: true,
-        emergency: false,
-        alarm: false,
-        mode: Mode::Automatic,
-        cutting: true,
-        inhibited: false,
-        tripped: false,
-        released: false,
-        feed_mm_per_min: 0.0,
-        frame: Frame::Machine,
-        tool_length_mm: None,
-        standing_tip_mm: None,
-        block: None,
-        setup: None,
-    }
-}
-
 /// Runs one governor through so many steps of faults, and checks every write.
 fn run(random: &mut Random, steps: u32, counted: &mut Counted) {
     let settings = settings(random);
@@ -108,7 +84,7 @@ fn run(random: &mut Random, steps: u32, counted: &mut Counted) {
         before: foreign.clone(),
     });
     let mut governor = Governor::new(settings.clone(), owned);
-    let mut plant = Plant { seen: cutting(foreign), pending: Vec::new() };
+    let mut plant = Plant { seen: Seen::moving(vec![0.0; 3], foreign), pending: Vec::new() };
     let (mut now_s, mut target, mut linked) = (0.0, vec![0.0; axes], true);
     let (mut sensor, mut wanted) = (true, true);
     // Of each axis: what was used of its slew and one step. It empties by the slew, so that it stays below a step exactly where
@@ -254,7 +230,7 @@ fn a_run_that_never_began_ends_at_once() {
         let held = owned.as_ref().map_or(7, |owned: &Owned| owned.last[0]);
         let axes = vec![limits(&mut Random(4))];
         let mut governor = Governor::new(Settings { axes, ..settings(&mut Random(5)) }, owned);
-        let seen = cutting(vec![held]);
+        let seen = Seen::moving(vec![0.0; 3], vec![held]);
         let mut state = |run: bool| {
             let target = Err(Reason::Model { what: "no sample yet".to_owned() });
             let inputs =

@@ -10,13 +10,17 @@ use trueaxis::files::disk;
 use trueaxis::input::Diagnostics;
 use trueaxis::machine::heat::TemperatureLog;
 use trueaxis_live::clock::{Clock, VirtualClock};
-use trueaxis_live::control::LinkFault;
+use trueaxis_live::control::{Identity, LinkFault};
+use trueaxis_live::datum::{Datum, DatumOrder};
 use trueaxis_live::expect::expect;
 use trueaxis_live::file::{ControlPlan, Plan, read_plan};
 use trueaxis_live::governor::State;
+use trueaxis_live::history::{Peaks, line};
 use trueaxis_live::opcua::{Nodes, OpcUa, Said, Value};
+use trueaxis_live::part::PartRecorder;
 use trueaxis_live::run::{Cycle, Run, Wish};
 use trueaxis_live::start::{compared, opcua_settings, sensors_of};
+use trueaxis_live::status::live_state;
 use trueaxis_live::store::MemoryStore;
 
 const CONTROL: &str = r#"[control]
@@ -472,4 +476,118 @@ fn law_a_forecast_with_lines_is_as_good_and_not_late() {
     assert_eq!(line.moving, Some(0.0));
     assert!(point.moving.expect("a velocity") > 0.1);
     assert_eq!(with.axes[1].moving, without.axes[1].moving);
+}
+
+const BOTH: (&str, &str) = (
+    "slope = { X = \"ns=2;s=sX\" }\nreference = { X = \"ns=2;s=rX\" }",
+    "slope = { X = \"ns=2;s=sX\", Y = \"ns=2;s=sY\" }\nreference = { Y = \"ns=2;s=rY\", X = \"ns=2;s=rX\" }",
+);
+
+/// Lines of both axes, an axis whose control counts the other way, a tenth of the increment, another period: by hand Y parts by
+/// 13.2 · 10.5 − 8.6 · 1.2 = 128.28 µm/m (its table is of 29.3 °C), X by 115.92 as with its line alone.
+#[test]
+fn law_lines_do_not_depend_on_sense_increment_and_period() {
+    let turned = (
+        "[axis.Y]\ncommissioned = { wrote = \"10 um\", measured = \"9.9 um\"",
+        "[axis.Y]\nsign = -1\ncommissioned = { wrote = \"10 um\", measured = \"-9.9 um\"",
+    );
+    let fine = ("increment = \"1 um\"", "increment = \"0.1 um\"");
+    let slow = ("period = \"50 ms\"", "period = \"130 ms\"");
+    for (changes, sign) in [
+        (vec![BOTH], 1.0),
+        (vec![BOTH, fine], 1.0),
+        (vec![BOTH, slow], 1.0),
+        (vec![BOTH, turned], -1.0),
+    ] {
+        let server = with_line(700.0, true);
+        server.set("sY", Value::Number(0.0));
+        server.set("rY", Value::Number(-50.0));
+        let mut bench = Bench::new(lines(&changes).unwrap_or_else(|e| panic!("{e:?}")), &server);
+        bench.pass(25.0);
+        assert!(bench.shown().starts_with("Run"), "{}", bench.shown());
+        let memory = server.0.borrow();
+        for (at_x, at_y) in [(0.0, 0.0), (3500.0, 2300.0), (1000.0, 2000.0)] {
+            let (x, y) = (memory.acts("X", at_x), memory.acts("Y", at_y));
+            assert!((x - 115.92e-6 * at_x).abs() < 1e-3, "X {x} at {at_x}");
+            assert!((sign * y - 128.28e-6 * at_y).abs() < 1e-3, "Y {y} at {at_y}, sense {sign}");
+        }
+    }
+}
+
+/// A zero that lacked 50 µm in X takes 50 µm off all along the line, and leaves its slope.
+#[test]
+fn law_a_zero_shifts_a_line_and_does_not_turn_it() {
+    let server = with_line(1200.0, true);
+    let mut bench = Bench::new(lines(&[]).unwrap_or_else(|e| panic!("{e:?}")), &server);
+    bench.pass(20.0);
+    let before = [0.0, 1750.0, 3500.0].map(|at| server.0.borrow().acts("X", at));
+    bench.run.ask_datum(DatumOrder::Set(Datum { missing: vec![0.05, 0.0] }));
+    bench.pass(20.0);
+    assert!(bench.shown().starts_with("Run"), "{}", bench.shown());
+    for (before, at) in before.iter().zip([0.0, 1750.0, 3500.0]) {
+        let after = server.0.borrow().acts("X", at);
+        assert!((before - after - 0.05).abs() < 1.1e-3, "{before} {after} at {at}");
+    }
+    // Touched with the whole line acting nothing is missing, wherever the axis stands.
+    bench.run.ask_datum(DatumOrder::Clear);
+    bench.pass(20.0);
+    for at in [0.0, 2222.0] {
+        server.set("X", Value::Number(at));
+        bench.pass(3.0);
+        bench.run.ask_datum(DatumOrder::Take);
+        bench.pass(0.2);
+        let missing = bench.run.correction().datum().expect("a zero").missing[0];
+        assert!(missing.abs() < 1.1e-3, "{missing} at {at}");
+        bench.run.ask_datum(DatumOrder::Clear);
+        bench.pass(1.0);
+    }
+}
+
+/// Status, history and record of a part speak of the place where the tool is: what is wanted there is the same with a line and without
+/// one, though the table of the machine is bent; what acts is what the NC adds there, and the rest is what the line leaves.
+#[test]
+fn law_what_is_shown_of_a_line_is_that_of_the_place() {
+    let at = 1750.0;
+    let shown = |plan: Result<Plan, Vec<String>>, server: &Server| -> [f64; 6] {
+        server.set("X", Value::Number(at));
+        let mut bench = Bench::new(plan.unwrap_or_else(|e| panic!("{e:?}")), server);
+        bench.pass(20.0);
+        let (plan, cycle) = (&bench.plan, bench.last.as_ref().expect("a cycle"));
+        let (correction, counts) = (bench.run.correction(), bench.run.counts());
+        let state = live_state(plan, &identity(), cycle, correction, counts);
+        let (mut peaks, mut part) = (Peaks::default(), PartRecorder::default());
+        peaks.add(plan, cycle, correction);
+        let kept = line(&state, &mut peaks);
+        let kept: Vec<f64> =
+            kept.split(',').skip(3).map(|v| v.parse().expect("a number")).collect();
+        part.add(plan, cycle, (correction, false));
+        let row = part.end().expect("a row");
+        // Seven columns, then the positions of X, Y and Z.
+        let row: Vec<f64> = row.split(',').skip(10).map(|v| v.parse().expect("a number")).collect();
+        let axis = &state.axes[0];
+        [
+            axis.target.expect("a target"),
+            axis.offset.expect("an offset"),
+            -kept[0],
+            kept[1],
+            row[0],
+            row[2],
+        ]
+    };
+    let bent = [("part = \"thermal\"", "part = \"whole\"")];
+    let server = with_line(1200.0, true);
+    let [target, offset, before, left, acted, off] = shown(lines(&bent), &server);
+    let [wanted, ..] = shown(plan_with(&[]), &Server::of(true));
+    let acts = 1e3 * server.0.borrow().acts("X", at);
+    assert!((target - wanted).abs() < 1e-3, "{target} {wanted}");
+    assert!((before - wanted).abs() < 6e-3, "{before} {wanted}");
+    assert!((offset - acts).abs() < 1e-2 && (acted - acts).abs() < 6e-3, "{offset} {acted} {acts}");
+    assert!((left - (acts - wanted)).abs() < 1.1e-2 && (off - left).abs() < 1.1e-2, "{left} {off}");
+    // The table is bent by more than the dead band.
+    assert!(left.abs() > 1.5, "{left}");
+}
+
+fn identity() -> Identity {
+    let [kind, series, version] = ["Maker", "Server", "1.0"].map(str::to_owned);
+    Identity { kind, series, version, axes: Vec::new(), decimals: Vec::new() }
 }

@@ -114,14 +114,12 @@ fn law_a_record_with_setups_gives_the_same_orders() {
 #[test]
 fn the_first_number_has_the_zero_of_the_run_before() {
     let datum = Some(Datum { missing: vec![0.01] });
-    let mut setups = Setups::of(vec![SetupDatum { setup: None, datum: datum.clone() }]);
-    assert!(!setups.show(None, None) && setups.datum() == datum.as_ref());
-    assert!(!setups.show(Some(7), None) && setups.datum() == datum.as_ref());
-    assert!(!setups.show(Some(8), None) && setups.fault().is_some());
-    assert!(
-        setups.show(Some(7), None) && setups.datum() == datum.as_ref() && setups.fault().is_none()
-    );
-    setups.clear_to(None);
+    let mut setups = Setups::new(None, vec![SetupDatum { setup: None, datum: datum.clone() }]);
+    assert!(!setups.show(None) && setups.datum() == datum.as_ref());
+    assert!(setups.show(Some(7)) && setups.datum() == datum.as_ref());
+    assert!(setups.show(Some(8)) && setups.fault().is_some() && setups.datum().is_none());
+    assert!(setups.show(Some(7)) && setups.datum() == datum.as_ref() && setups.fault().is_none());
+    setups.clear();
     assert_eq!((setups.datum(), setups.known().len()), (None, 1));
 }
 

@@ -28,12 +28,13 @@ impl Answer for LiveExpectAnswer {
                 shown(axis.expanded_uncertainty),
             ]
         });
+        let on_line = self.0.axes.iter().any(|axis| axis.on_line);
         let headings = [
             "axis",
             "before",
             "after",
             "of it: age of the sample",
-            "of it: increment, line",
+            if on_line { "of it: increment, line" } else { "of it: increment" },
             "more while it moves",
             "U (k = 2)",
         ];

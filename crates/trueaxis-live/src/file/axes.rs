@@ -1,6 +1,7 @@
 //! `[axis.X]` of a plan: the limits of the governor, and the evidence of commissioning.
 
 use crate::governor::{AxisLimits, increments_of};
+use crate::model::LiveAxis;
 use std::ops::RangeInclusive;
 use trueaxis::input::{Dimension, Section};
 use trueaxis::machine::Machine;
@@ -26,6 +27,20 @@ pub struct AxisPlan {
     pub lag: Option<f64>,
     /// The ends of the travel, where the control corrects along a line of the position. Unit: mm.
     pub line: Option<[f64; 2]>,
+}
+
+impl AxisPlan {
+    /// How many offsets of the control are its own: along a line two, one at each end.
+    pub fn offsets(&self) -> usize {
+        if self.line.is_some() { 2 } else { 1 }
+    }
+}
+
+impl From<&AxisPlan> for LiveAxis {
+    fn from(plan: &AxisPlan) -> Self {
+        let AxisPlan { axis, increment, sign, line, .. } = *plan;
+        Self { axis, increment, sign, line }
+    }
 }
 
 /// Evidence that sign and scale are right.

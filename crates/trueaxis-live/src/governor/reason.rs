@@ -105,12 +105,12 @@ pub enum Reason {
 impl Reason {
     /// Whether it is the same reason for readers of a journal: what a broken sensor sends changes with every sample.
     pub fn is_like(&self, other: &Self) -> bool {
-        let sensor = |reason: &Self| match reason {
+        let of = |reason: &Self| match reason {
             Self::Sensor { sensor, .. } | Self::Workpiece { sensor, .. } => Some(sensor.clone()),
+            Self::Setup { number } => Some(number.to_string()),
             _ => None,
         };
-        std::mem::discriminant(self) == std::mem::discriminant(other)
-            && sensor(self) == sensor(other)
+        std::mem::discriminant(self) == std::mem::discriminant(other) && of(self) == of(other)
     }
 }
 

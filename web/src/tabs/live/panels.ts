@@ -51,6 +51,7 @@ export function tilesOf(last: LiveState): HTMLElement {
       "dl",
       { class: "tiles" },
       tile("feed", last.feed_mm_per_min === null ? NO_NUMBER : withUnit(last.feed_mm_per_min, 0, "mm/min")),
+      last.setup == null ? null : tile("setup", number(last.setup, 0)),
       tile("cycles", number(last.cycles, 0)),
       tile("periods missed", number(last.missed, 0)),
       tile("writes", number(last.writes, 0)),
