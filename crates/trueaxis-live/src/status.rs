@@ -171,7 +171,7 @@ pub fn live_state(
     let acting = seen.and_then(|seen| counted(seen.acting.as_ref()?));
     let lag = cycle.output.lag.as_ref().zip(at);
     let lag = lag.map(|(lag, at)| plan.at_position(lag.iter().copied(), &at));
-    let target = cycle.output.target.as_ref().map(|target| &target.offsets);
+    let target = cycle.output.target.as_ref().map(|target| &target.here);
     let axes = plan.axes.iter().enumerate().map(|(i, axis)| {
         let is_linear = is_linear(plan, axis);
         let scale = axis.increment * if is_linear { 1e3 } else { 1e6 };
