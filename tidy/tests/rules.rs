@@ -194,10 +194,11 @@ fn large_crates() -> Vec<String> {
 }
 
 /// Every crate, and which of the others it may use. An arrow that is not here needs a decision record.
-const CRATES: [(&str, &[&str]); 27] = [
+const CRATES: [(&str, &[&str]); 28] = [
     ("trueaxis-input", &[]),
     ("trueaxis-geometry", &[]),
     ("trueaxis-form", &["geometry"]),
+    ("trueaxis-cut", &["geometry"]),
     ("trueaxis-report", &[]),
     ("trueaxis-machine", &["input", "geometry"]),
     ("trueaxis-moves", &[]),
@@ -231,7 +232,10 @@ const CRATES: [(&str, &[&str]); 27] = [
             "writer",
         ],
     ),
-    ("trueaxis-predict", &["input", "geometry", "machine", "nc", "part", "motion", "report"]),
+    (
+        "trueaxis-predict",
+        &["cut", "input", "geometry", "machine", "nc", "part", "motion", "report"],
+    ),
     (
         "trueaxis-correct",
         &["cl", "input", "geometry", "machine", "nc", "part", "motion", "predict", "report"],
@@ -242,6 +246,7 @@ const CRATES: [(&str, &[&str]); 27] = [
         &[
             "post",
             "input",
+            "cut",
             "form",
             "geometry",
             "machine",

@@ -11,6 +11,7 @@ import { browser, server } from "./shared.mjs";
 const NAS = "examples/03_predict/nas979-on-xkas2525.toml";
 const FAILING = "examples/03_predict/nas979-head-out-of-square.toml";
 const HOLES = "examples/03_predict/torque-arm.toml";
+const DRAWING = "examples/03_predict/housing.toml";
 
 /** µm with one digit, as the page writes it. */
 const micro = (mm) =>
@@ -269,5 +270,35 @@ test("holes, without and with compensation", async () => {
   }
   await page.click("button[data-set=none]");
   await picture(page, "predict-holes");
+  assert.deepEqual(complaints, []);
+});
+
+test("a part by its drawing: characteristics, errors and surfaces", async () => {
+  const expected = await cli("predict", DRAWING, "--no-report");
+  const { page, complaints } = await openExample(DRAWING);
+  const shown = ".predict-page:not([hidden])";
+  assert.equal(await page.textContent(`${shown} [data-test=verdict]`), expected.outcome.toUpperCase());
+  const two = (mm) =>
+    (1e3 * mm)
+      .toFixed(2)
+      .replace("-", "\u2212")
+      .replace(/^\u22120\.00$/, "0.00");
+  for (const value of expected.characteristics) {
+    const row = page.locator(`${shown} tr[data-set="${value.name}"]`);
+    assert.equal(await row.locator("[data-cell=value]").textContent(), two(value.value_mm));
+    assert.equal(await row.locator("[data-cell=u]").textContent(), two(value.u_mm));
+    await row.locator("button").click();
+    const errors = await page.$$eval(`${shown} tr[data-error]`, (rows) => rows.map((r) => r.dataset.error));
+    assert.deepEqual(
+      errors,
+      value.errors.map((e) => e.error),
+    );
+  }
+  const features = await page.$$eval(`${shown} tr[data-feature]`, (rows) => rows.map((r) => r.dataset.feature));
+  assert.deepEqual(
+    features,
+    expected.features.map((f) => f.name),
+  );
+  await picture(page, "predict-drawing");
   assert.deepEqual(complaints, []);
 });

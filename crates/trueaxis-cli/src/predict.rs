@@ -1,4 +1,4 @@
-//! `trueaxis predict`: accuracy of test pieces and holes before they are cut.
+//! `trueaxis predict`: accuracy of test pieces, holes and parts before they are cut.
 
 use crate::door::DoorArguments;
 use crate::output::Outcome;
@@ -12,12 +12,13 @@ use trueaxis::questions::Predict;
 Examples:
   trueaxis predict examples/03_predict/nas979-on-xkas2525.toml
   trueaxis predict examples/03_predict/torque-arm.toml
+  trueaxis predict examples/03_predict/housing.toml
   trueaxis predict examples/03_predict/nas979-on-xkas2525.toml --format json
 
 Exit status: 0 the part is predicted within tolerance, 1 it is not (or that is undecided within the
 uncertainty), 2 unusable input; then no report is written.")]
 pub struct Arguments {
-    /// The study file: machine, test piece, setting point
+    /// The study file: machine, test piece or part, setting point
     #[arg(value_name = "STUDY.toml")]
     study: PathBuf,
     /// Monte Carlo samples, instead of the study's (0: none)

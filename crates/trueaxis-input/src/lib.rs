@@ -44,6 +44,7 @@ pub mod plausible;
 mod quantity;
 mod section;
 pub mod sheet;
+mod vector;
 
 pub use csv::{CsvColumn, CsvTable};
 pub use diagnostic::{Diagnostic, Diagnostics, Place, Severity};

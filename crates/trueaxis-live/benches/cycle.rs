@@ -13,7 +13,7 @@ use std::path::Path;
 use std::time::Instant;
 use trueaxis::files::disk;
 use trueaxis_live::clock::{Clock, VirtualClock};
-use trueaxis_live::control::{Control, Identity, LinkFault, Mode, Seen, Sent};
+use trueaxis_live::control::{Control, Identity, LinkFault, Seen, Sent};
 use trueaxis_live::file::{Plan, read_plan};
 use trueaxis_live::governor::State;
 use trueaxis_live::pose::Frame;

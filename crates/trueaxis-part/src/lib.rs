@@ -52,6 +52,7 @@
 mod error;
 mod file;
 pub mod fit;
+pub mod part;
 pub mod testpiece;
 pub mod tolerance;
 

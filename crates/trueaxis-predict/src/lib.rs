@@ -17,7 +17,7 @@
 pub mod predict;
 pub mod report;
 
-use report::{HolesDocument, PredictionDocument};
+use report::{DrawingDocument, HolesDocument, PredictionDocument};
 use trueaxis_report::{NamedSchema, named_schema};
 
 /// The JSON Schemas of the documents.
@@ -25,5 +25,6 @@ pub fn schemas() -> Vec<NamedSchema> {
     vec![
         named_schema::<PredictionDocument>("predict"),
         named_schema::<HolesDocument>("predict-holes"),
+        named_schema::<DrawingDocument>("predict-part"),
     ]
 }

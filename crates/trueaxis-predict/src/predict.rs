@@ -10,6 +10,7 @@ pub mod acted;
 mod budget;
 mod correction;
 mod cutting;
+pub mod drawing;
 mod feed;
 pub mod holes;
 mod judge;

@@ -1,5 +1,7 @@
 //! Predictions as text, JSON and pages.
 
+mod drawing;
+mod drawing_document;
 mod holes;
 mod holes_document;
 mod holes_pictures;
@@ -7,6 +9,8 @@ mod prediction;
 mod prediction_document;
 mod prediction_pictures;
 
+pub use drawing::drawing_report;
+pub use drawing_document::DrawingDocument;
 pub use holes::holes_report;
 pub use holes_document::HolesDocument;
 pub use prediction::prediction_report;

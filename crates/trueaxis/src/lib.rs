@@ -42,6 +42,7 @@ pub use schemas::{add_diagnostics, schemas};
 pub use trueaxis_calibrate::plan;
 pub use trueaxis_cl as cl;
 pub use trueaxis_correct::compensate;
+pub use trueaxis_cut as cut;
 pub use trueaxis_form as form;
 pub use trueaxis_geometry as geometry;
 pub use trueaxis_input as input;

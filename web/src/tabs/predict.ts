@@ -7,14 +7,15 @@ import { number } from "../format.ts";
 import type { Frame } from "../frame.ts";
 import { ErrorBudget } from "./predict/budget.ts";
 import { Details } from "./predict/details.ts";
+import { Drawing } from "./predict/drawing.ts";
 import { Holes } from "./predict/holes.ts";
 import { PieceView } from "./predict/piece.ts";
 import { Sections } from "./predict/sections.ts";
 import { studyChoice, Summary } from "./predict/summary.ts";
-import type { HolesHeader, PieceFrame } from "./predict/types.ts";
+import type { DrawingHeader, HolesHeader, PieceFrame } from "./predict/types.ts";
 import { WhatIf, type Changes } from "./predict/whatif.ts";
 
-type Answer = PieceFrame | Frame<HolesHeader>;
+type Answer = PieceFrame | Frame<HolesHeader> | Frame<DrawingHeader>;
 type Page = "budget" | "what-if" | "numbers";
 const PAGES: readonly [Page, string][] = [
   ["budget", "Error budget"],
@@ -33,6 +34,7 @@ class PredictTab implements TabHandle {
   private readonly empty = h("div", { class: "panel predict-empty" });
   private readonly piece_page = h("div", { class: "predict-page", hidden: true });
   private readonly holes_page = h("div", { class: "predict-page", hidden: true });
+  private readonly drawing_page = h("div", { class: "predict-page", hidden: true });
   private readonly pages = new Map<Page, HTMLElement>();
   private readonly page_buttons = h("div", { class: "group", role: "group", ariaLabel: "Shown below" });
   private piece: {
@@ -44,6 +46,7 @@ class PredictTab implements TabHandle {
     details: Details;
   } | null = null;
   private holes: Holes | null = null;
+  private drawing: Drawing | null = null;
   private study: string | null = null;
   private stop = new AbortController();
   /** The prediction of the file; what is shown may be changed. */
@@ -57,7 +60,7 @@ class PredictTab implements TabHandle {
 
   constructor(host: HTMLElement, app: App) {
     this.app = app;
-    fill(host, this.empty, this.piece_page, this.holes_page);
+    fill(host, this.empty, this.piece_page, this.holes_page, this.drawing_page);
   }
 
   open(params: Readonly<Record<string, string>>): void {
@@ -68,7 +71,7 @@ class PredictTab implements TabHandle {
         h(
           "p",
           {},
-          "There is no study in this folder. Open an example on the first page, or put a study that names a machine and a test piece into the folder.",
+          "There is no study in this folder. Open an example on the first page, or put a study that names a machine and a test piece or a part into the folder.",
         ),
       );
       return;
@@ -102,8 +105,10 @@ class PredictTab implements TabHandle {
       progress.done();
       this.empty.hidden = true;
       this.holes_page.hidden = frame.header.kind !== "holes";
-      this.piece_page.hidden = frame.header.kind === "holes";
+      this.drawing_page.hidden = frame.header.kind !== "drawing";
+      this.piece_page.hidden = frame.header.kind !== "test-piece";
       if (isHoles(frame)) this.showHoles(study, frame);
+      else if (isDrawing(frame)) this.showDrawing(study, frame);
       else this.showPiece(study, frame);
       this.app.say(study);
     } catch (error) {
@@ -116,7 +121,7 @@ class PredictTab implements TabHandle {
 
   /** Nothing of another study stays beside the message. */
   private showFailure(study: string, refusal: Refusal): void {
-    this.piece_page.hidden = this.holes_page.hidden = true;
+    this.piece_page.hidden = this.holes_page.hidden = this.drawing_page.hidden = true;
     this.empty.hidden = false;
     fill(
       this.empty,
@@ -134,6 +139,12 @@ class PredictTab implements TabHandle {
     this.base = null;
     this.holes ??= new Holes(this.holes_page, this.app);
     this.holes.show(study, frame.header);
+  }
+
+  private showDrawing(study: string, frame: Frame<DrawingHeader>): void {
+    this.base = null;
+    this.drawing ??= new Drawing(this.drawing_page, this.app);
+    this.drawing.show(study, frame.header);
   }
 
   // ---- a test piece ----
@@ -222,6 +233,7 @@ class PredictTab implements TabHandle {
   }
 }
 
+const isDrawing = (frame: Answer): frame is Frame<DrawingHeader> => frame.header.kind === "drawing";
 const isHoles = (frame: Answer): frame is Frame<HolesHeader> => frame.header.kind === "holes";
 
 export const predict: Tab = {

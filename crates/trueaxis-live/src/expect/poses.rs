@@ -304,3 +304,29 @@ fn uncertainty(warm: &Machine, pose: &Command) -> Result<Option<f64>, String> {
     let u = (0..quantities.len()).map(effect).fold(0.0, f64::hypot);
     Ok(Some(u).filter(|u| *u > 0.0))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trueaxis::machine::file::NoTables;
+
+    /// A hundredth of the travel is left at each end: 10 mm of 1000 mm, 6 mm of 600 mm.
+    #[test]
+    fn the_poses_of_a_day_leave_room_at_the_ends() {
+        let text = "[machine]\nname = \"mill\"\nchain = \"w b X Y t\"\n[axis.X]\ntravel = [\"100 mm\", \"1100 mm\"]\n\
+                    [axis.Y]\ntravel = [\"-300 mm\", \"300 mm\"]\n";
+        let machine = Machine::check("mill.toml", text, &NoTables).0.expect("a machine");
+        let poses = inside(&machine);
+        let range = |i: usize| {
+            let values = poses.iter().map(|p| p[i]);
+            [values.clone().fold(f64::MAX, f64::min), values.fold(f64::MIN, f64::max)]
+        };
+        for (i, due) in [(0, [110.0, 1090.0]), (1, [-294.0, 294.0])] {
+            let found = range(i);
+            assert!(
+                (found[0] - due[0]).abs() < 1e-9 && (found[1] - due[1]).abs() < 1e-9,
+                "{found:?}"
+            );
+        }
+    }
+}

@@ -80,3 +80,42 @@ impl MockPath {
         if self.part() > 0.0 { self.feed_mm_per_min } else { 0.0 }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 2 s at X0, 60 mm at 600 mm/min in 6 s, 1 s at X60, back.
+    #[test]
+    fn the_block_is_the_stop_that_is_stayed_at_or_gone_to() {
+        let stop = |x: f64, dwell_s| Stop { positions: vec![x], dwell_s };
+        let mut path = MockPath::new(vec![stop(0.0, 2.0), stop(60.0, 1.0)], 600.0).expect("a path");
+        let mut seen = Vec::new();
+        for _ in 0..16 {
+            path.advance(1.0);
+            seen.push((path.block(), path.positions()[0], path.feed_mm_per_min() > 0.0));
+        }
+        let due: [(usize, f64, bool); 16] = [
+            (0, 0.0, false),
+            (1, 0.0, false),
+            (1, 10.0, true),
+            (1, 20.0, true),
+            (1, 30.0, true),
+            (1, 40.0, true),
+            (1, 50.0, true),
+            (1, 60.0, false),
+            (0, 60.0, false),
+            (0, 50.0, true),
+            (0, 40.0, true),
+            (0, 30.0, true),
+            (0, 20.0, true),
+            (0, 10.0, true),
+            (0, 0.0, false),
+            (0, 0.0, false),
+        ];
+        for ((block, x, moves), (due_block, due_x, due_moves)) in seen.into_iter().zip(due) {
+            assert_eq!((block, moves), (due_block, due_moves), "{x} {due_x}");
+            assert!((x - due_x).abs() < 1e-9, "{x} {due_x}");
+        }
+    }
+}

@@ -303,7 +303,7 @@ fn update_approach(approach: &mut Approach, last: &Command, next: &Command) {
 }
 
 /// The command that brings the nominal tip to the part zero with the rotary axes as asked.
-fn setting_command(machine: &Machine, setting: &Setting) -> Result<Command, Error> {
+pub(super) fn setting_command(machine: &Machine, setting: &Setting) -> Result<Command, Error> {
     let rotary = match setting {
         Setting::Perfect => Command::default(),
         Setting::Touched { rotary } => *rotary,
@@ -328,4 +328,20 @@ fn bore(
     let commands = machine.follow(&path, from).map_err(Error::Hole)?;
     let at = |i: usize| stop(machine, commands[i], &Approach::default(), (quantities, None));
     Ok([at(0)?, at(1)?])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A hole 40 mm deep whose mouth is 8 µm in X and −4 µm in Y from its end leans by 200 µrad about Y and 100 µrad about X.
+    #[test]
+    fn the_datum_of_a_bore_by_hand() {
+        let datum = bored_datum(Vec3::new(5e-3, 1e-3, 7.0), Vec3::new(-3e-3, 5e-3, 9.0), 40.0);
+        assert_eq!(datum.shift_mm, Vec3::new(5e-3, 1e-3, 0.0));
+        assert!((datum.tilt_rad - Vec3::new(100e-6, 200e-6, 0.0)).norm() < 1e-15);
+        // Moving the ideal axis by shift and tilt brings it to both ends.
+        let at = |z: f64| datum.shift_mm + datum.tilt_rad.cross(&Vec3::new(0.0, 0.0, z));
+        assert!((at(-40.0).xy() - Vec3::new(-3e-3, 5e-3, 0.0).xy()).norm() < 1e-15);
+    }
 }

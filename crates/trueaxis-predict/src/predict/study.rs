@@ -394,7 +394,7 @@ fn read_mounting(root: &Section<'_>, machine: Machine, piece: &TestPieceFile) ->
     Some(machine)
 }
 
-fn read_reference(root: &Section<'_>, machine: &Machine) -> Reference {
+pub(super) fn read_reference(root: &Section<'_>, machine: &Machine) -> Reference {
     let setting = root.section("setting", |s| read_setting(s, machine, &[]));
     let datum = root.section("datum", read_datum);
     Reference {
@@ -476,7 +476,7 @@ fn read_variants(section: &Section<'_>, machine: &Machine, studied: &Reference) 
 }
 
 /// `rule = "simple"` or `rule = "ISO 14253-1"` with `coverage = 2`.
-fn read_decision(section: &Section<'_>) -> Option<Decision> {
+pub(super) fn read_decision(section: &Section<'_>) -> Option<Decision> {
     let coverage = section.get("coverage").map_or(Some(2.0), |i| i.number());
     let item = section.require("rule", "rule = \"simple\" or \"ISO 14253-1\"")?;
     match item.text()? {

@@ -15,10 +15,11 @@ use trueaxis::machine::axis::AxisKind;
 use trueaxis::machine::errors::ErrorName;
 use trueaxis::machine::heat::Conditions;
 use trueaxis::part::fit::circle::Zone;
+use trueaxis::predict::drawing::PartPrediction;
 use trueaxis::predict::holes::{HolePrediction, HoleStudy};
 use trueaxis::predict::{Error, Prediction, SectionResult, Study, WhatIf, preview, read_study};
 use trueaxis::questions::{Predict, Predicted};
-use trueaxis::report::{DiagnosticEntry, HolesDocument, PredictionDocument};
+use trueaxis::report::{DiagnosticEntry, DrawingDocument, HolesDocument, PredictionDocument};
 
 /// The whole prediction of a study, as `trueaxis predict --no-report` computes it.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -52,6 +53,8 @@ pub(super) enum PredictAnswer<'a> {
     TestPiece(Box<PieceEntry<'a>>),
     /// Of holes.
     Holes(Box<HolesEntry<'a>>),
+    /// Of a part by its drawing.
+    Drawing(Box<DrawingEntry<'a>>),
 }
 
 /// The prediction of a test piece. Arrays: for each point of all sections `azimuth_rad` (f32), `error_um` (f32:
@@ -127,6 +130,16 @@ pub(super) struct HolesEntry<'a> {
     diagnostics: Vec<DiagnosticEntry<'a>>,
 }
 
+/// The prediction of a part by its drawing. Arrays, point after point of all features: `places_mm` (f32: three nominal
+/// coordinates each), `deviation_um` (f32).
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct DrawingEntry<'a> {
+    /// The document of `trueaxis predict`.
+    document: DrawingDocument<'a>,
+    /// The problems of the study.
+    diagnostics: Vec<DiagnosticEntry<'a>>,
+}
+
 impl Request for PredictRequest {
     type Answer<'a> = PredictAnswer<'a>;
 
@@ -146,6 +159,13 @@ impl Request for PredictRequest {
                     diagnostics: entries(&problems),
                 }));
                 Reply::frame(&answer, hole_arrays(study, prediction))
+            }
+            Predicted::Drawing(study, prediction) => {
+                let answer = PredictAnswer::Drawing(Box::new(DrawingEntry {
+                    document: DrawingDocument::of(study, prediction),
+                    diagnostics: entries(&problems),
+                }));
+                Reply::frame(&answer, point_arrays(prediction))
             }
         })
     }
@@ -260,6 +280,16 @@ fn section_arrays(prediction: &Prediction) -> Arrays {
         ("azimuth_rad", Array::F32(azimuth)),
         ("error_um", Array::F32(error_um.collect())),
         ("profile_mm", Array::F64(profile.collect())),
+    ]
+}
+
+fn point_arrays(prediction: &PartPrediction) -> Arrays {
+    let points = || prediction.features.iter().flat_map(|f| &f.points);
+    let places = points().flat_map(|p| [p.nominal_mm.x, p.nominal_mm.y, p.nominal_mm.z]);
+    let deviation_um = points().map(|p| (p.deviation_mm * 1e3) as f32);
+    vec![
+        ("places_mm", Array::F32(places.map(|c| c as f32).collect())),
+        ("deviation_um", Array::F32(deviation_um.collect())),
     ]
 }
 

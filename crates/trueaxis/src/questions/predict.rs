@@ -6,13 +6,16 @@ use serde_json::Value;
 use std::path::PathBuf;
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_part::tolerance::Outcome;
+use trueaxis_predict::predict::drawing::{
+    PartPrediction, PartStudy, is_part_study, predict_part, read_part_study,
+};
 use trueaxis_predict::predict::holes::{
     HolePrediction, HoleSet, HoleStudy, is_hole_study, predict_holes, read_hole_study,
 };
 use trueaxis_predict::predict::{Error, Prediction, Study, predict, read_study};
 use trueaxis_report::{Report, document};
 
-/// A test piece or holes before they are cut.
+/// A test piece, holes or a part before they are cut.
 #[derive(Debug, Clone, Default)]
 pub struct Predict {
     /// The study file: machine, part, setting point.
@@ -30,6 +33,8 @@ pub enum PredictInput {
     Part(Box<Study>),
     /// Holes on a circle.
     Holes(Box<HoleStudy>),
+    /// A part of any shape.
+    Drawing(Box<PartStudy>),
 }
 
 /// A study with its prediction.
@@ -39,6 +44,8 @@ pub enum Predicted {
     Part(Box<Study>, Box<Prediction>),
     /// Holes on a circle.
     Holes(Box<HoleStudy>, Box<HolePrediction>),
+    /// A part of any shape.
+    Drawing(Box<PartStudy>, Box<PartPrediction>),
 }
 
 impl Predict {
@@ -77,6 +84,10 @@ impl Question for Predict {
             let study = problems.keep(read_hole_study(files, &self.study));
             return study.map(Box::new).map(PredictInput::Holes);
         }
+        if is_part_study(files, &self.study) {
+            let study = problems.keep(read_part_study(files, &self.study));
+            return study.map(Box::new).map(PredictInput::Drawing);
+        }
         let study = problems.keep(read_study(files, &self.study));
         let mut study = Box::new(study?);
         self.choose_sampling(&mut study, samples);
@@ -99,6 +110,10 @@ impl Question for Predict {
                         None
                     }
                 }
+            }
+            PredictInput::Drawing(study) => {
+                let prediction = predict_part(&study, problems)?;
+                Some(Predicted::Drawing(study, Box::new(prediction)))
             }
             PredictInput::Holes(study) => match predict_holes(&study) {
                 Ok(prediction) => {
@@ -139,6 +154,9 @@ impl Answer for Predicted {
             Self::Holes(study, prediction) => {
                 document(&report::HolesDocument::of(study, prediction))
             }
+            Self::Drawing(study, prediction) => {
+                document(&report::DrawingDocument::of(study, prediction))
+            }
         }
     }
 
@@ -146,12 +164,14 @@ impl Answer for Predicted {
         match self {
             Self::Part(study, prediction) => report::prediction_report(study, prediction),
             Self::Holes(study, prediction) => report::holes_report(study, prediction),
+            Self::Drawing(study, prediction) => report::drawing_report(study, prediction),
         }
     }
 
     fn is_yes(&self) -> bool {
         match self {
             Self::Part(_, prediction) => prediction.outcome() == Outcome::Pass,
+            Self::Drawing(_, prediction) => prediction.outcome == Outcome::Pass,
             Self::Holes(study, prediction) => {
                 let applied = prediction.sets.iter().find(|s| s.compensation == study.applied);
                 applied.and_then(HoleSet::keeps_tolerances) != Some(false)

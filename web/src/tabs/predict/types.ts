@@ -128,6 +128,43 @@ export interface HolesHeader {
   diagnostics: Diagnostic[];
 }
 
+export interface CutPoint {
+  nominal_mm: [number, number, number];
+  deviation_mm: number;
+  by_program_mm: number;
+  tool: number;
+  line: number;
+  time_s: number;
+}
+
+export interface CharacteristicValue {
+  name: string;
+  kind: string;
+  feature: string;
+  datum: string | null;
+  value_mm: number;
+  u_mm: number;
+  nominal_mm: number;
+  low_mm: number | null;
+  high_mm: number;
+  used_ratio: number;
+  outcome: Verdict;
+  errors: { error: string; without_mm: number }[];
+}
+
+export interface DrawingHeader {
+  kind: "drawing";
+  document: {
+    name: string;
+    part: string;
+    outcome: Verdict;
+    steps: number;
+    characteristics: [CharacteristicValue, ...CharacteristicValue[]];
+    features: { name: string; shape: string; points: number; most: CutPoint; least: CutPoint; mean_mm: number }[];
+  };
+  diagnostics: Diagnostic[];
+}
+
 /** What the command line calls the indices. */
 const TITLES: Record<string, string> = {
   roundness_eq18_mm: "roundness, paper Eq 18",

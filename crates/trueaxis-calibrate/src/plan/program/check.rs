@@ -346,6 +346,9 @@ mod tests {
                 assert!(off.iter().all(|off| off.norm() > radius_mm));
                 let nearest = off.iter().map(|off| off.dot(&along)).fold(f64::INFINITY, f64::min);
                 assert!(nearest > radius_mm && nearest < 1.3 * radius_mm, "{nearest}");
+                // Stated from the centre of the ball, 80 mm end some of the gap beyond that.
+                let farthest = off.iter().map(|off| off.dot(&along)).fold(0.0, f64::max);
+                assert!((80.0..80.0 + 0.3 * radius_mm).contains(&farthest), "{farthest}");
             }
         }
     }

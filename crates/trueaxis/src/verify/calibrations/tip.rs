@@ -114,3 +114,26 @@ fn uncertainty(old: &Machine, new: &Machine, at: &Command) -> f64 {
     }
     variance.sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trueaxis_machine::file::NoTables;
+
+    /// Errors that stay are no change; the tip of an axis that is 10 µrad squarer lies 8 µm elsewhere at Y = 800 mm.
+    #[test]
+    fn the_change_is_that_from_the_old_to_the_new() {
+        let machine = |squareness: &str| {
+            let text = format!(
+                "[machine]\nname = \"mill\"\nchain = \"w b X Y t\"\n[axis.X]\ntravel = [\"0 mm\", \"500 mm\"]\n[axis.Y]\n\
+                 travel = [\"0 mm\", \"800 mm\"]\n[location]\nEC0Y = \"{squareness}\"\n"
+            );
+            Machine::check("mill.toml", &text, &NoTables).0.expect("a machine")
+        };
+        let (old, new) = (machine("30 urad"), machine("20 urad"));
+        assert_eq!(tip_change(&old, &old).largest_mm, 0.0);
+        let change = tip_change(&old, &new);
+        assert!((change.largest_mm - 8e-3).abs() < 1e-9, "{}", change.largest_mm);
+        assert!((change.at[1] - 800.0).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,35 @@
+//! A part as its drawing describes it: features of nominal shape, datums, characteristics with their tolerances.
+//!
+//! ```text
+//! part.toml ──Part::read──> Part { features with points and normals, characteristics }
+//! deviations along the normals ──Part::evaluate──> one value for each characteristic
+//! ```
+
+mod characteristic;
+mod feature;
+mod file;
+mod values;
+
+pub use characteristic::{Characteristic, Kind, Limits};
+pub use feature::{Feature, Geometry};
+pub use values::Cut;
+
+/// A checked part file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// Its name.
+    pub name: String,
+    /// Where its dimensions come from.
+    pub source: String,
+    /// In the order of the file.
+    pub features: Vec<Feature>,
+    /// What is judged, in the order of the file.
+    pub characteristics: Vec<Characteristic>,
+}
+
+impl Part {
+    /// All points of all features.
+    pub fn points(&self) -> usize {
+        self.features.iter().map(|f| f.points.len()).sum()
+    }
+}

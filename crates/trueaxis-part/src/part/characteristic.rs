@@ -1,0 +1,131 @@
+//! What a drawing asks of features.
+
+/// The kind of a characteristic, ISO 1101 and ISO 14405-1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Of a plane: the distance of two parallel planes around all points.
+    Flatness,
+    /// Of a cylinder or cone: the largest of its sections.
+    Roundness,
+    /// Of a cylinder.
+    Cylindricity,
+    /// Of a cylinder by least squares, its deviation from the nominal one: size (GG).
+    Diameter,
+    /// Of any surface: the width of the zone about the nominal surface that holds all of it.
+    Profile,
+    /// Of a plane or an axis to a datum.
+    Parallelism,
+    /// Of a plane or an axis to a datum.
+    Perpendicularity,
+    /// Of an axis about its nominal place, as a diameter; of a plane the width of the zone about it.
+    Position,
+    /// Of an axis about that of a datum, as a diameter.
+    Coaxiality,
+    /// Of the sections of a cylinder or cone about a datum axis: the largest range.
+    CircularRunOut,
+    /// The same of all sections of a cylinder together.
+    TotalRunOut,
+}
+
+/// What is allowed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Limits {
+    /// Width or diameter of a zone.
+    Zone {
+        /// The tolerance.
+        tolerance_mm: f64,
+    },
+    /// Deviations of a size.
+    Size {
+        /// The lower limit deviation.
+        low_mm: f64,
+        /// The upper limit deviation.
+        high_mm: f64,
+    },
+}
+
+/// One line of the drawing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Characteristic {
+    /// Its name.
+    pub name: String,
+    /// What is asked.
+    pub kind: Kind,
+    /// Of which feature.
+    pub feature: usize,
+    /// To which one.
+    pub datum: Option<usize>,
+    /// What is allowed.
+    pub limits: Limits,
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Self; 11] = [
+        Self::Flatness,
+        Self::Roundness,
+        Self::Cylindricity,
+        Self::Diameter,
+        Self::Profile,
+        Self::Parallelism,
+        Self::Perpendicularity,
+        Self::Position,
+        Self::Coaxiality,
+        Self::CircularRunOut,
+        Self::TotalRunOut,
+    ];
+
+    /// Its name in files, reports and JSON.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Flatness => "flatness",
+            Self::Roundness => "roundness",
+            Self::Cylindricity => "cylindricity",
+            Self::Diameter => "diameter",
+            Self::Profile => "profile",
+            Self::Parallelism => "parallelism",
+            Self::Perpendicularity => "perpendicularity",
+            Self::Position => "position",
+            Self::Coaxiality => "coaxiality",
+            Self::CircularRunOut => "circular_run_out",
+            Self::TotalRunOut => "total_run_out",
+        }
+    }
+
+    /// In words.
+    pub fn name(self) -> String {
+        self.key().replace('_', " ").replace("run out", "run-out")
+    }
+
+    /// Whether it needs a datum.
+    pub fn needs_datum(self) -> bool {
+        matches!(
+            self,
+            Self::Parallelism
+                | Self::Perpendicularity
+                | Self::Coaxiality
+                | Self::CircularRunOut
+                | Self::TotalRunOut
+        )
+    }
+}
+
+impl Limits {
+    /// Whether a value is allowed, and how far it is from the nearest limit; negative outside.
+    pub fn room_mm(&self, value_mm: f64) -> f64 {
+        match *self {
+            Self::Zone { tolerance_mm } => tolerance_mm - value_mm,
+            Self::Size { low_mm, high_mm } => (high_mm - value_mm).min(value_mm - low_mm),
+        }
+    }
+
+    /// How much of the tolerance is used, 1 at a limit. Unit: 1.
+    pub fn used(&self, value_mm: f64) -> f64 {
+        match *self {
+            Self::Zone { tolerance_mm } => value_mm / tolerance_mm,
+            Self::Size { low_mm, high_mm } => {
+                (value_mm - 0.5 * (low_mm + high_mm)).abs() / (0.5 * (high_mm - low_mm))
+            }
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! A part of any shape: cut virtually by its program, judged by its drawing.
+//!
+//! ```text
+//! PartStudy { machine, program, part }
+//!     program ──simulate──> CutPath: steps of each tool, nominal and actual ──> Sweeps
+//!     part ──> nails ──cut──> deviation of each point, with the block that made it
+//!                     └─ normal of the cutter there × displacement of the tool by each error ──> u, error budget
+//!     deviations ──Part::evaluate──> values ──limits──> verdict
+//! ```
+
+mod budget;
+mod path;
+mod study;
+
+pub use budget::{ErrorEffect, effects};
+pub use path::{CutPath, Origin};
+pub use study::{PartStudy, is_part_study, read_part_study};
+
+use super::study::Decision;
+use trueaxis_cut::{Cut, Nail, Reach, cut};
+use trueaxis_geometry::Vec3;
+use trueaxis_input::{Diagnostics, Place};
+use trueaxis_motion::{Findings, Observer};
+use trueaxis_part::part;
+use trueaxis_part::tolerance::Outcome;
+
+/// A characteristic of the part that will be cut.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PartValue {
+    /// Its value on the actual machine, mm.
+    pub value_mm: f64,
+    /// Standard uncertainty of that by the stated uncertainties of the machine, mm.
+    pub u_mm: f64,
+    /// What the program leaves on a machine without errors, mm.
+    pub nominal_mm: f64,
+    /// How much of the tolerance is used. Unit: 1.
+    pub used_ratio: f64,
+    /// Whether it is in tolerance.
+    pub outcome: Outcome,
+    /// What each error does to it, the largest first.
+    pub errors: Vec<ErrorEffect>,
+}
+
+/// A point of a feature as it was cut.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CutPoint {
+    /// Where it should be, mm.
+    pub nominal_mm: Vec3,
+    /// Out of the material.
+    pub normal: Vec3,
+    /// How much material is left along the normal; negative: it is missing, mm.
+    pub deviation_mm: f64,
+    /// What the program leaves there without errors, mm.
+    pub by_program_mm: f64,
+    /// The block that cut it.
+    pub origin: Origin,
+}
+
+/// A feature as it was cut.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CutFeature {
+    /// In the order of the part file.
+    pub points: Vec<CutPoint>,
+}
+
+/// What was found out about the part.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PartPrediction {
+    /// In the order of the part file.
+    pub features: Vec<CutFeature>,
+    /// In the order of the part file.
+    pub values: Vec<PartValue>,
+    /// Files of the program, by the number in [`Origin`].
+    pub programs: Vec<String>,
+    /// All characteristics together.
+    pub outcome: Outcome,
+    /// Moves that cut, all tools together.
+    pub steps: usize,
+}
+
+/// Cuts the part of a study and judges it.
+///
+/// # Errors
+/// A program that can't be run, a tool of unknown shape, points that no cutter reaches, points that are cut deeper than
+/// their nails reach, a machine whose errors are not known where it cuts.
+pub fn predict_part(study: &PartStudy, problems: &mut Diagnostics) -> Option<PartPrediction> {
+    let zero = study.zero(problems)?;
+    let mut path = CutPath::new(&study.job, &zero);
+    let Findings { run, .. } = study.job.run(None, &mut [&mut path as &mut dyn Observer]);
+    let has_errors = run.problems.has_errors();
+    problems.append(run.problems);
+    if has_errors {
+        return None;
+    }
+    let place = Place::whole(&study.path.display().to_string());
+    let (actual, nominal) = match path.sweeps() {
+        Ok(sweeps) => sweeps,
+        Err(why) => {
+            problems.error(
+                "unknown-cutter",
+                place,
+                why,
+                "state diameter and corner_radius of the tool in the set-up file",
+            );
+            return None;
+        }
+    };
+    let nails = nails(&study.part);
+    let [actual, nominal] = [actual, nominal].map(|sweeps| cut(&sweeps, &nails));
+    let found = reached(study, &actual, problems)?;
+    let by_program: Vec<f64> =
+        nominal.iter().map(|r| r.cut().map_or(f64::NAN, |c| c.deviation_mm)).collect();
+    let reached_nominally = reached(study, &nominal, problems).is_some();
+    if !reached_nominally {
+        return None;
+    }
+    let deviations: Vec<f64> = found.iter().map(|c| c.deviation_mm).collect();
+    let values = budget::values(study, &path, (&nails, &found), (&deviations, &by_program));
+    let values = match values {
+        Ok(values) => values,
+        Err(why) => {
+            problems.error(
+                "no-value",
+                place,
+                why,
+                "more points on the feature: a smaller `spacing`",
+            );
+            return None;
+        }
+    };
+    let mut points =
+        nails.iter().zip(&found).zip(&by_program).map(|((nail, cut), by_program)| CutPoint {
+            nominal_mm: nail.foot_mm,
+            normal: nail.normal,
+            deviation_mm: cut.deviation_mm,
+            by_program_mm: *by_program,
+            origin: path.origin(cut),
+        });
+    let features = study.part.features.iter();
+    let features = features
+        .map(|f| CutFeature { points: points.by_ref().take(f.points.len()).collect() })
+        .collect();
+    let outcome = values.iter().fold(Outcome::Pass, |all, value| match (all, value.outcome) {
+        (Outcome::Fail, _) | (_, Outcome::Fail) => Outcome::Fail,
+        (Outcome::Undecided, _) | (_, Outcome::Undecided) => Outcome::Undecided,
+        (Outcome::Pass, Outcome::Pass) => Outcome::Pass,
+    });
+    Some(PartPrediction { features, values, programs: run.programs, outcome, steps: path.steps() })
+}
+
+/// A nail on each point.
+fn nails(part: &part::Part) -> Vec<Nail> {
+    let of = |feature: &part::Feature| {
+        let (below_mm, above_mm) = (feature.below_mm, feature.above_mm);
+        let nail = move |p: &trueaxis_geometry::surface::SurfacePoint| Nail {
+            foot_mm: p.point_mm,
+            normal: p.normal,
+            below_mm,
+            above_mm,
+        };
+        feature.points.iter().map(nail).collect::<Vec<_>>()
+    };
+    part.features.iter().flat_map(of).collect()
+}
+
+/// The cuts, if every point was cut within its nail.
+fn reached(study: &PartStudy, reaches: &[Reach], problems: &mut Diagnostics) -> Option<Vec<Cut>> {
+    let mut rest = reaches;
+    let mut sound = true;
+    for feature in &study.part.features {
+        let (own, others) = rest.split_at(feature.points.len());
+        rest = others;
+        let not_cut: Vec<usize> = places(own, |r| *r == Reach::NotCut);
+        let deeper: Vec<usize> = places(own, |r| matches!(r, Reach::Deeper(_)));
+        let place = || Place::whole(&study.part_file);
+        let at = |i: usize| {
+            let p = feature.points[i].point_mm;
+            format!("X {:.3} Y {:.3} Z {:.3} mm", p.x, p.y, p.z)
+        };
+        let (name, count) = (&feature.name, own.len());
+        if let Some(first) = not_cut.first() {
+            sound = false;
+            let message = format!(
+                "`{name}`: no cutter comes to {} of {count} points, first at {}",
+                not_cut.len(),
+                at(*first)
+            );
+            let hint = format!(
+                "within {} mm outside of the surface (`above`): program, work offset, tool or feature is another",
+                feature.above_mm
+            );
+            problems.error("not-cut", place(), message, &hint);
+        }
+        if let Some(first) = deeper.first() {
+            sound = false;
+            let message = format!(
+                "`{name}`: {} of {count} points are cut away, first at {}",
+                deeper.len(),
+                at(*first)
+            );
+            let hint = format!(
+                "deeper than {} mm (`below`): a gouge, or the feature is another",
+                feature.below_mm
+            );
+            problems.error("cut-away", place(), message, &hint);
+        }
+    }
+    sound.then(|| reaches.iter().filter_map(|r| r.cut().copied()).collect())
+}
+
+fn places(reaches: &[Reach], is: impl Fn(&Reach) -> bool) -> Vec<usize> {
+    reaches.iter().enumerate().filter(|(_, r)| is(r)).map(|(i, _)| i).collect()
+}
+
+/// A value against its limits, ISO 14253-1 where the study asks for it.
+fn outcome(limits: &part::Limits, value_mm: f64, u_mm: f64, decision: Decision) -> Outcome {
+    let expanded_mm = match decision {
+        Decision::Simple => 0.0,
+        Decision::Guarded { coverage } => coverage * u_mm,
+    };
+    match limits.room_mm(value_mm) {
+        room if room >= expanded_mm => Outcome::Pass,
+        room if room < -expanded_mm => Outcome::Fail,
+        _ => Outcome::Undecided,
+    }
+}

@@ -1,0 +1,111 @@
+//! A prediction for a part of any shape in text and on a page.
+
+use super::drawing_document::{extremes, word};
+use crate::predict::drawing::{CutPoint, PartPrediction, PartStudy, PartValue, effects};
+use trueaxis_part::part::{Characteristic, Limits};
+use trueaxis_part::tolerance::Outcome;
+use trueaxis_report::{Report, Section, Standing, Table};
+
+/// Errors in the table of a characteristic.
+const MOST_ERRORS: usize = 3;
+
+/// The prediction.
+pub fn drawing_report<'a>(study: &'a PartStudy, prediction: &'a PartPrediction) -> Report<'a> {
+    let (standing, title, sentence) = match prediction.outcome {
+        Outcome::Pass => (Standing::Good, "PASS", "the part will be in tolerance".to_owned()),
+        Outcome::Fail => {
+            (Standing::Bad, "FAIL", named(study, prediction, Outcome::Fail, "out of tolerance"))
+        }
+        Outcome::Undecided => (
+            Standing::Open,
+            "UNDECIDED",
+            named(study, prediction, Outcome::Undecided, "within U of its limit"),
+        ),
+    };
+    Report::new(&study.name)
+        .line(format!("{}, {}", study.job.machine.name(), study.job.machine.chain_text()))
+        .line(format!("{}, {}", study.part.name, study.part.source))
+        .line(format!("{}, {} steps of tools", study.job.program.file(), prediction.steps))
+        .verdict(standing, title, sentence)
+        .section(characteristics(study, prediction))
+        .section(budget(study, prediction))
+        .section(features(study, prediction))
+}
+
+/// The characteristics with one outcome.
+fn named(study: &PartStudy, prediction: &PartPrediction, outcome: Outcome, what: &str) -> String {
+    let all = study.part.characteristics.iter().zip(&prediction.values);
+    let names: Vec<&str> =
+        all.filter(|(_, v)| v.outcome == outcome).map(|(c, _)| c.name.as_str()).collect();
+    format!("{what}: {}", names.join(", "))
+}
+
+/// µm with two digits, no minus before a zero.
+fn um(mm: f64) -> String {
+    format!("{:.2}", (mm * 1e5).round() / 100.0 + 0.0)
+}
+
+fn allowed(limits: &Limits) -> String {
+    match *limits {
+        Limits::Zone { tolerance_mm } => um(tolerance_mm),
+        Limits::Size { low_mm, high_mm } => format!("{} … {}", um(low_mm), um(high_mm)),
+    }
+}
+
+fn characteristics<'a>(study: &PartStudy, prediction: &PartPrediction) -> Section<'a> {
+    let row = |(asked, value): (&Characteristic, &PartValue)| {
+        [
+            asked.name.clone(),
+            um(value.value_mm),
+            um(value.u_mm),
+            um(value.nominal_mm),
+            allowed(&asked.limits),
+            format!("{:.0} %", 100.0 * value.used_ratio),
+            word(value.outcome).to_owned(),
+        ]
+    };
+    let rows = study.part.characteristics.iter().zip(&prediction.values).map(row);
+    let headings = ["all in µm", "value", "u", "program alone", "allowed", "used", "verdict"];
+    let note = "u: standard uncertainty by those of the machine file. Program alone: what this program leaves on a \
+                machine without errors.";
+    Section::new("Characteristics").table(Table::new(headings).rows(rows).note(note))
+}
+
+fn budget<'a>(study: &PartStudy, prediction: &PartPrediction) -> Section<'a> {
+    let mut table = Table::new(["characteristic", "error", "value without it, µm", "change, µm"]);
+    for (asked, value) in study.part.characteristics.iter().zip(&prediction.values) {
+        for effect in effects(value, MOST_ERRORS) {
+            table = table.row([
+                asked.name.clone(),
+                effect.error.to_string(),
+                um(effect.without_mm),
+                um(effect.without_mm - value.value_mm),
+            ]);
+        }
+    }
+    Section::new("Error budget")
+        .table(table.note("The errors whose absence changes a value most, to first order."))
+}
+
+fn features<'a>(study: &PartStudy, prediction: &PartPrediction) -> Section<'a> {
+    let place = |p: &CutPoint| {
+        format!(
+            "{} at X {:.2} Y {:.2} Z {:.2}, T{} line {}, {:.1} s",
+            um(p.deviation_mm),
+            p.nominal_mm.x,
+            p.nominal_mm.y,
+            p.nominal_mm.z,
+            p.origin.tool,
+            p.origin.line,
+            p.origin.time_s
+        )
+    };
+    let mut table = Table::new(["feature", "points", "most material left, µm", "most missing, µm"]);
+    for (feature, cut) in study.part.features.iter().zip(&prediction.features) {
+        let [most, least] = extremes(&cut.points);
+        let count = cut.points.len().to_string();
+        table = table.row([feature.name.clone(), count, place(most), place(least)]);
+    }
+    let note = "Deviations along the normals, with the block that cut the point and its time from the start.";
+    Section::new("Surfaces").table(table.note(note))
+}

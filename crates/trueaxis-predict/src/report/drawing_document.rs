@@ -1,0 +1,194 @@
+//! The document of a prediction for a part of any shape.
+
+use crate::predict::drawing::{CutPoint, PartPrediction, PartStudy, PartValue, effects};
+use schemars::JsonSchema;
+use serde::Serialize;
+use trueaxis_part::part::{Characteristic, Feature, Limits};
+use trueaxis_part::tolerance::Outcome;
+
+/// Errors that are listed for a characteristic.
+const MOST_ERRORS: usize = 10;
+
+/// A part before it is cut, judged by its drawing: `trueaxis/predict/1`.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct DrawingDocument<'a> {
+    /// Which document this is.
+    #[schemars(extend("const" = "trueaxis/predict/1"))]
+    pub schema: &'static str,
+    /// The name of the study.
+    pub name: &'a str,
+    /// The name of the part.
+    pub part: &'a str,
+    /// `pass`, `fail`, or `undecided` within the uncertainty.
+    pub outcome: &'static str,
+    /// Steps of the tools.
+    pub steps: usize,
+    /// The lines of the drawing, in the order of the part file.
+    pub characteristics: Vec<CharacteristicEntry<'a>>,
+    /// The features, in the order of the part file.
+    pub features: Vec<FeatureEntry<'a>>,
+}
+
+/// One line of the drawing.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct CharacteristicEntry<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// What is asked, such as `flatness`.
+    pub kind: &'static str,
+    /// Of which feature.
+    pub feature: &'a str,
+    /// To which feature; null without a datum.
+    pub datum: Option<&'a str>,
+    /// Its value; of a size the deviation from the nominal one, mm.
+    pub value_mm: f64,
+    /// Standard uncertainty of that, by the stated uncertainties of the machine, mm.
+    pub u_mm: f64,
+    /// The value that the program leaves on a machine without errors, mm.
+    pub nominal_mm: f64,
+    /// The least value allowed; null for a zone, mm.
+    pub low_mm: Option<f64>,
+    /// The largest value allowed, mm.
+    pub high_mm: f64,
+    /// How much of the tolerance is used, 1 at a limit. Unit: 1.
+    pub used_ratio: f64,
+    /// `pass`, `fail` or `undecided`.
+    pub outcome: &'static str,
+    /// The errors that matter most, the largest first.
+    pub errors: Vec<ErrorEffectEntry>,
+}
+
+/// What an error does to a characteristic.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct ErrorEffectEntry {
+    /// Its ISO 230-1 name.
+    pub error: String,
+    /// The value without it, mm.
+    pub without_mm: f64,
+}
+
+/// A feature as it was cut.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct FeatureEntry<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// `plane`, `cylinder`, `cone`, `sphere` or `points`.
+    pub shape: &'static str,
+    /// How many points it has.
+    pub points: usize,
+    /// The point with the most material left.
+    pub most: PointEntry,
+    /// The point with the most material missing, or the least left.
+    pub least: PointEntry,
+    /// Mean of the deviations, mm.
+    pub mean_mm: f64,
+}
+
+/// A point of a feature.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct PointEntry {
+    /// Where it should be in the workpiece frame, mm.
+    pub nominal_mm: [f64; 3],
+    /// The deviation along the normal; positive where material is left, mm.
+    pub deviation_mm: f64,
+    /// What the program leaves there on a machine without errors, mm.
+    pub by_program_mm: f64,
+    /// The tool that cut it.
+    pub tool: u32,
+    /// The line of the program.
+    pub line: u32,
+    /// When, from the start of the program, s.
+    pub time_s: f64,
+}
+
+/// In one word.
+pub(super) fn word(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Pass => "pass",
+        Outcome::Fail => "fail",
+        Outcome::Undecided => "undecided",
+    }
+}
+
+impl<'a> DrawingDocument<'a> {
+    /// The document of a prediction.
+    pub fn of(study: &'a PartStudy, prediction: &'a PartPrediction) -> Self {
+        let part = &study.part;
+        let asked = part.characteristics.iter().zip(&prediction.values);
+        let features = part.features.iter().zip(&prediction.features);
+        Self {
+            schema: "trueaxis/predict/1",
+            name: &study.name,
+            part: &part.name,
+            outcome: word(prediction.outcome),
+            steps: prediction.steps,
+            characteristics: asked
+                .map(|(asked, value)| CharacteristicEntry::of(&part.features, asked, value))
+                .collect(),
+            features: features.map(|(f, cut)| FeatureEntry::of(f, &cut.points)).collect(),
+        }
+    }
+}
+
+impl<'a> CharacteristicEntry<'a> {
+    fn of(features: &'a [Feature], asked: &'a Characteristic, value: &PartValue) -> Self {
+        let (low_mm, high_mm) = match asked.limits {
+            Limits::Zone { tolerance_mm } => (None, tolerance_mm),
+            Limits::Size { low_mm, high_mm } => (Some(low_mm), high_mm),
+        };
+        let effect = |e: &crate::predict::drawing::ErrorEffect| ErrorEffectEntry {
+            error: e.error.to_string(),
+            without_mm: e.without_mm,
+        };
+        Self {
+            name: &asked.name,
+            kind: asked.kind.key(),
+            feature: &features[asked.feature].name,
+            datum: asked.datum.map(|d| features[d].name.as_str()),
+            value_mm: value.value_mm,
+            u_mm: value.u_mm,
+            nominal_mm: value.nominal_mm,
+            low_mm,
+            high_mm,
+            used_ratio: value.used_ratio,
+            outcome: word(value.outcome),
+            errors: effects(value, MOST_ERRORS).map(effect).collect(),
+        }
+    }
+}
+
+/// The points with the most and the least material.
+pub(super) fn extremes(points: &[CutPoint]) -> [&CutPoint; 2] {
+    let by = |a: &&CutPoint, b: &&CutPoint| a.deviation_mm.total_cmp(&b.deviation_mm);
+    let most = points.iter().max_by(by).unwrap_or(&points[0]);
+    let least = points.iter().min_by(by).unwrap_or(&points[0]);
+    [most, least]
+}
+
+impl<'a> FeatureEntry<'a> {
+    fn of(feature: &'a Feature, points: &[CutPoint]) -> Self {
+        let [most, least] = extremes(points);
+        let sum: f64 = points.iter().map(|p| p.deviation_mm).sum();
+        Self {
+            name: &feature.name,
+            shape: feature.geometry.name(),
+            points: points.len(),
+            most: PointEntry::of(most),
+            least: PointEntry::of(least),
+            mean_mm: sum / points.len() as f64,
+        }
+    }
+}
+
+impl PointEntry {
+    fn of(point: &CutPoint) -> Self {
+        Self {
+            nominal_mm: point.nominal_mm.into(),
+            deviation_mm: point.deviation_mm,
+            by_program_mm: point.by_program_mm,
+            tool: point.origin.tool,
+            line: point.origin.line,
+            time_s: point.origin.time_s,
+        }
+    }
+}

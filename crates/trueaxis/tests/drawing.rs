@@ -1,0 +1,225 @@
+//! Parts of any shape, cut virtually by their programs: by hand figures, by the machine changed, and whatever should not matter.
+
+mod library;
+
+use library::root;
+use std::path::{Path, PathBuf};
+use trueaxis::files::disk;
+use trueaxis::input::{Diagnostics, Files};
+use trueaxis::predict::drawing::{PartPrediction, PartStudy, predict_part, read_part_study};
+
+const STUDY: &str = "name = \"s\"\nmachine = \"m.toml\"\npart = \"p.toml\"\nprogram = \"p.nc\"\n";
+const SET_UP: &str = "control = \"fanuc\"\nworkpiece_at = \"G54\"\n[work_offset.G54]\nX = \"300 mm\"\nY = \"200 mm\"\nZ = \"-300 mm\"\n\
+    [tool.1]\nname = \"end mill 12\"\nlength = \"90 mm\"\ndiameter = \"12 mm\"\n";
+
+/// A mill with these errors.
+fn mill(errors: &str) -> String {
+    format!("[machine]\nname = \"mill\"\nchain = \"w b X Y Z t\"\n[location]\n{errors}\n")
+}
+
+/// A bore of 30 at the zero, a side along Y at X = 60 and one along X at Y = −40.
+const PROGRAM: &str = "%\nO1\nG21 G17 G40 G80 G90 G94\nT1 M6\nG54 G0 X9. Y0. S8000 M3\nG43 Z5. H1\n\
+    G1 Z-21. F500\nG3 X9. Y0. I-9. F900\nG1 X0. Y0.\nG0 Z20.\nG0 X66. Y60.\nG1 Z-21. F900\nG1 Y-46.\nG1 X-66.\nG0 Z50.\nM30\n%\n";
+
+const PART: &str = "name = \"p\"\n[feature.bore]\nhole = { at = \"0 0 -2 mm\", axis = \"0 0 -1\", diameter = \"30 mm\", length = \"16 mm\" }\n\
+    [feature.side]\nplane = { at = \"60 0 -10 mm\", normal = \"1 0 0\", along = \"0 1 0\", size = \"70 16 mm\" }\nspacing = \"5 mm\"\n\
+    [feature.front]\nplane = { at = \"0 -40 -10 mm\", normal = \"0 -1 0\", along = \"1 0 0\", size = \"100 16 mm\" }\nspacing = \"5 mm\"\n\
+    [[characteristic]]\nroundness = \"10 um\"\nof = \"bore\"\n[[characteristic]]\ndiameter = \"10 um\"\nof = \"bore\"\n\
+    [[characteristic]]\nperpendicularity = \"10 um\"\nof = \"side\"\ndatum = \"front\"\n\
+    [[characteristic]]\nposition = \"10 um\"\nof = \"bore\"\n[[characteristic]]\nposition = \"10 um\"\nof = \"side\"\n";
+
+fn files(texts: &[(&str, String)]) -> Files {
+    Files::none().with_texts(texts.iter().map(|(name, text)| (PathBuf::from(name), text.clone())))
+}
+
+fn study(texts: &[(&str, &str)]) -> Result<PartStudy, Diagnostics> {
+    let mut all = vec![
+        ("s.toml", STUDY.to_owned()),
+        ("m.toml", mill("")),
+        ("p.toml", PART.to_owned()),
+        ("p.nc", PROGRAM.to_owned()),
+        ("p.setup.toml", SET_UP.to_owned()),
+    ];
+    for (name, text) in texts {
+        all.iter_mut().filter(|(n, _)| n == name).for_each(|(_, old)| *old = (*text).to_owned());
+    }
+    let (study, problems) = read_part_study(&files(&all), Path::new("s.toml"));
+    study.ok_or(problems)
+}
+
+fn predicted(texts: &[(&str, &str)]) -> PartPrediction {
+    let study = study(texts).unwrap_or_else(|p| panic!("{:?}", words(&p)));
+    let mut problems = Diagnostics::new();
+    predict_part(&study, &mut problems).unwrap_or_else(|| panic!("{:?}", words(&problems)))
+}
+
+fn words(problems: &Diagnostics) -> Vec<String> {
+    problems.iter().map(|p| format!("{}: {} ({})", p.code, p.message, p.hint)).collect()
+}
+
+fn values(prediction: &PartPrediction) -> Vec<f64> {
+    prediction.values.iter().map(|v| v.value_mm).collect()
+}
+
+/// On a machine without errors the part is that of the drawing, to what the chords of circles leave.
+#[test]
+fn law_a_machine_without_errors_cuts_the_drawing() {
+    let found = predicted(&[]);
+    assert!(
+        found.values.iter().all(|v| v.value_mm.abs() < 1e-4 && v.u_mm == 0.0),
+        "{:?}",
+        values(&found)
+    );
+    assert!(found.values.iter().all(|v| (v.value_mm - v.nominal_mm).abs() < 1e-9));
+}
+
+/// A squareness s = 100 µrad of Y makes of a circle of radius 9 mm an ellipse with semi-axes 9 (1 ± s/2): a bore that is 9 s = 0.90 µm
+/// out of round and as large as before; a side that leans by s, 6.5 µm between the outermost of its points, which are 65 mm apart.
+#[test]
+fn law_a_squareness_by_hand() {
+    let machine = mill("EC0Y = \"100 urad\"");
+    let found = predicted(&[("m.toml", &machine)]);
+    let [roundness, diameter, leaning, place, side] = values(&found)[..] else { panic!("five") };
+    assert!((roundness - 0.9e-3).abs() < 3e-5, "{roundness}");
+    assert!(diameter.abs() < 4e-4, "{diameter}");
+    assert!((leaning - 6.5e-3).abs() < 2e-5, "{leaning}");
+    // The zero was set on the same machine.
+    assert!(place < 2e-4, "{place}");
+    // The outermost points of the side are 32.5 mm away from the zero.
+    assert!((side - 2.0 * 3.25e-3).abs() < 2e-5, "{side}");
+    let named = &found.values[2].errors[0];
+    assert_eq!(named.error.to_string(), "EC0Y");
+    assert!(named.without_mm.abs() < 2e-5, "{}", named.without_mm);
+}
+
+/// A tool that is 20 µm thicker than stated, as a set-up error: the bore grows by 20 µm, the side lies 10 µm deeper.
+#[test]
+fn law_a_thicker_tool_by_hand() {
+    let thicker = SET_UP.replace("12 mm\"\n", "12.02 mm\"\n");
+    assert_ne!(thicker, SET_UP);
+    let (before, after) = (predicted(&[]), predicted(&[("p.setup.toml", &thicker)]));
+    let grown = values(&after)[1] - values(&before)[1];
+    assert!((grown - 0.02).abs() < 1e-6, "{grown}");
+    assert!((values(&after)[4] - 0.02).abs() < 1e-6, "{:?}", values(&after));
+}
+
+/// u of a squareness of 100 ± 10 µrad is a tenth of what it does: 0.65 µm on the side.
+#[test]
+fn law_u_is_that_of_the_machine() {
+    let machine = mill("EC0Y = \"100 ± 10 urad\"");
+    let found = predicted(&[("m.toml", &machine)]);
+    assert!((found.values[2].u_mm - 0.65e-3).abs() < 5e-6, "{}", found.values[2].u_mm);
+    assert!((found.values[0].u_mm - 0.09e-3).abs() < 5e-6, "{}", found.values[0].u_mm);
+}
+
+/// What an error does by the normals of the cutter is what another machine without it cuts.
+#[test]
+fn law_the_budget_is_what_another_machine_cuts() {
+    let errors =
+        ["EC0Y = \"60 urad\"", "EB0Z = \"-80 urad\"", "EA0Z = \"50 urad\"", "EC0w = \"30 urad\""];
+    let all = errors.join("\n");
+    let before = predicted(&[("m.toml", &mill(&all))]);
+    for left_out in errors {
+        let rest: Vec<&str> = errors.iter().copied().filter(|e| *e != left_out).collect();
+        let after = predicted(&[("m.toml", &mill(&rest.join("\n")))]);
+        let name = left_out.split(' ').next().expect("a name");
+        for (value, direct) in before.values.iter().zip(values(&after)) {
+            let said = value.errors.iter().find(|e| e.error.to_string() == name).expect("named");
+            assert!(
+                (said.without_mm - direct).abs() < 5e-5,
+                "{name}: {} {direct}",
+                said.without_mm
+            );
+        }
+    }
+}
+
+/// Notation, incremental or absolute, more points, the order of features, moves cut in two: none changes a value.
+#[test]
+fn law_what_should_not_matter_to_a_drawing() {
+    let machine = mill("EC0Y = \"100 urad\"\nEA0Z = \"40 urad\"");
+    let expected = values(&predicted(&[("m.toml", &machine)]));
+    let incremental = PROGRAM.replace(
+        "G0 X66. Y60.\nG1 Z-21. F900\nG1 Y-46.\nG1 X-66.\n",
+        "G91 G0 X66. Y60.\nG1 Z-41. F900\nG1 Y-50.\nY-56.\nX-132.\nG90\n",
+    );
+    let radius = PROGRAM.replace("G3 X9. Y0. I-9. F900", "G3 X-9. Y0. R9. F900\nG3 X9. Y0. I9.");
+    let slow = PROGRAM.replace("F900", "F90").replace("S8000", "S100");
+    let finer = PART.replace("5 mm\"", "2.5 mm\"");
+    let inches = SET_UP.replace("Z = \"-300 mm\"", "Z = \"-0.3 m\"");
+    for (what, changes) in [
+        ("incremental", vec![("p.nc", incremental)]),
+        ("by radius", vec![("p.nc", radius)]),
+        ("slow", vec![("p.nc", slow)]),
+        ("m", vec![("p.setup.toml", inches)]),
+    ] {
+        let mut texts: Vec<(&str, &str)> = vec![("m.toml", &machine)];
+        texts.extend(changes.iter().map(|(n, t)| (*n, t.as_str())));
+        for (a, b) in expected.iter().zip(values(&predicted(&texts))) {
+            assert!((a - b).abs() < 3e-5, "{what}: {a} {b}");
+        }
+    }
+    // Points nearer to the edges see more of what leans: half a step more at both ends.
+    let found = values(&predicted(&[("m.toml", &machine), ("p.toml", &finer)]));
+    assert!((found[2] - expected[2] * 67.5 / 65.0).abs() < 5e-5, "{found:?} {expected:?}");
+    for threads in [1, 3] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        let found = pool.install(|| values(&predicted(&[("m.toml", &machine)])));
+        assert_eq!(found, expected);
+    }
+}
+
+/// What cannot be judged is said by name, with the place and the cure.
+#[test]
+fn bad_drawings_are_refused_by_name() {
+    let part = |from: &str, to: &str| {
+        let text = PART.replacen(from, to, 1);
+        assert_ne!(text, PART, "{from}");
+        ("p.toml", text)
+    };
+    let cases = [
+        (part("hole =", "cylinder ="), "cut-away"),
+        (part("diameter = \"30 mm\"", "diameter = \"60 mm\""), "not-cut"),
+        (part("[feature.bore]\n", "[feature.bore]\nspacing = \"0.001 mm\"\n"), "too-many-points"),
+        (part("of = \"bore\"", "of = \"boer\""), "unknown-feature"),
+        (
+            part("roundness = \"10 um\"\nof = \"bore\"", "roundness = \"10 um\"\nof = \"side\""),
+            "wrong-feature",
+        ),
+        (part("datum = \"front\"", "name = \"x\""), "wrong-feature"),
+        (part("datum = \"front\"", "datum = \"side\""), "wrong-feature"),
+        (part("perpendicularity = \"10 um\"", "perpendicularity = \"0 um\""), "not-positive"),
+        (part("normal = \"1 0 0\"", "normal = \"0 0 0\""), "bad-direction"),
+        (part("along = \"0 1 0\"", "along = \"1 0 0\""), "bad-direction"),
+        (part("size = \"70 16 mm\"", "size = \"70 mm\""), "bad-place"),
+        (
+            part("roundness = \"10 um\"", "roundness = \"10 um\"\nmaximum_material = true"),
+            "material-condition",
+        ),
+        (("p.setup.toml", SET_UP.replace("diameter = \"12 mm\"\n", "")), "unknown-cutter"),
+        (("p.toml", "name = \"p\"\n".to_owned()), "missing-key"),
+    ];
+    for ((name, text), code) in cases {
+        let codes = match study(&[(name, &text)]) {
+            Err(problems) => words(&problems),
+            Ok(study) => {
+                let mut problems = Diagnostics::new();
+                assert!(predict_part(&study, &mut problems).is_none(), "{code}");
+                words(&problems)
+            }
+        };
+        assert!(codes.iter().any(|w| w.starts_with(&format!("{code}:"))), "{code}: {codes:?}");
+    }
+}
+
+/// The shipped example is read as it stands.
+#[test]
+fn the_housing_is_judged() {
+    let path = root().join("examples/03_predict/housing.toml");
+    let (study, problems) = read_part_study(&disk(), &path);
+    let study = study.unwrap_or_else(|| panic!("{:?}", words(&problems)));
+    let mut problems = Diagnostics::new();
+    let found = predict_part(&study, &mut problems).expect("a prediction");
+    assert_eq!(found.values.len(), study.part.characteristics.len());
+    assert!(found.values.iter().all(|v| v.value_mm.is_finite() && v.u_mm > 0.0));
+}

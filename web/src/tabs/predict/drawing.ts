@@ -1,0 +1,182 @@
+/** A part by its drawing: each characteristic against its tolerance, and where its surfaces are off. */
+
+import { diagnosticList, split, type App } from "../../app.ts";
+import { fill, h } from "../../dom.ts";
+import { number } from "../../format.ts";
+import { studyChoice } from "./summary.ts";
+import type { CharacteristicValue, CutPoint, DrawingHeader } from "./types.ts";
+
+const SENTENCES = {
+  pass: "the part will be in tolerance",
+  fail: "a characteristic will be out of tolerance",
+  undecided: "a characteristic is nearer to its limit than its uncertainty",
+};
+
+export class Drawing {
+  private readonly app: App;
+  private readonly head = h("div", { class: "panel predict-head" });
+  private readonly verdict = h("div", { class: "verdict-band", role: "status" });
+  private readonly values = h("div", { class: "panel" });
+  private readonly budget = h("div", { class: "panel" });
+  private readonly surfaces = h("div", { class: "panel" });
+  private chosen = 0;
+
+  constructor(host: HTMLElement, app: App) {
+    this.app = app;
+    const { left, right } = split(host, "drawing", 0.6);
+    left.append(this.head, this.verdict, this.values);
+    right.append(this.budget, this.surfaces);
+  }
+
+  show(path: string, { document, diagnostics }: DrawingHeader): void {
+    const nearest = document.characteristics.reduce((w, c) => (w.used_ratio >= c.used_ratio ? w : c));
+    this.chosen = document.characteristics.indexOf(nearest);
+    fill(
+      this.head,
+      h("div", { class: "panel-head" }, h("h1", {}, document.name), studyChoice(this.app, path)),
+      h("p", { class: "muted" }, `${document.part}; ${document.steps} steps of the tools`),
+      diagnosticList(diagnostics),
+    );
+    this.verdict.className = `verdict-band ${document.outcome}`;
+    fill(
+      this.verdict,
+      h("strong", { dataTest: "verdict" }, document.outcome.toUpperCase()),
+      h("span", {}, SENTENCES[document.outcome]),
+      h(
+        "span",
+        { class: "verdict-worst", dataTest: "worst" },
+        `${nearest.name}: ${number(100 * nearest.used_ratio, 0)} % of its tolerance`,
+      ),
+    );
+    this.showValues(document);
+    this.showBudget(nearest);
+    this.showSurfaces(document);
+  }
+
+  private showValues(document: DrawingHeader["document"]): void {
+    const row = (value: CharacteristicValue, i: number): HTMLElement =>
+      h(
+        "tr",
+        { class: i === this.chosen ? "judged" : "", dataSet: value.name, onclick: () => this.pick(document, value, i) },
+        h("td", {}, h("button", { class: "link" }, value.name)),
+        h("td", { class: "number", dataCell: "value" }, number(1e3 * value.value_mm, 2)),
+        h("td", { class: "number muted", dataCell: "u" }, number(1e3 * value.u_mm, 2)),
+        h("td", { class: "number muted" }, number(1e3 * value.nominal_mm, 2)),
+        h("td", { class: "number" }, allowed(value)),
+        h("td", { class: `used ${value.outcome}` }, `${number(100 * value.used_ratio, 0)} %`),
+      );
+    fill(
+      this.values,
+      h("div", { class: "panel-head" }, h("h2", {}, "Characteristics, in µm")),
+      h(
+        "table",
+        { class: "hole-sets" },
+        h(
+          "thead",
+          {},
+          h(
+            "tr",
+            {},
+            h("th", {}, "characteristic"),
+            h("th", { class: "number" }, "value"),
+            h("th", { class: "number" }, "u"),
+            h("th", { class: "number", title: "what the program leaves on a machine without errors" }, "program alone"),
+            h("th", { class: "number" }, "allowed"),
+            h("th", {}, "used"),
+          ),
+        ),
+        h("tbody", {}, document.characteristics.map(row)),
+      ),
+    );
+  }
+
+  private pick(document: DrawingHeader["document"], value: CharacteristicValue, i: number): void {
+    this.chosen = i;
+    this.showValues(document);
+    this.showBudget(value);
+  }
+
+  private showBudget(value: CharacteristicValue): void {
+    fill(
+      this.budget,
+      h("div", { class: "panel-head" }, h("h2", {}, `Errors in ${value.name}, in µm`)),
+      h(
+        "table",
+        { class: "hole-sets" },
+        h(
+          "thead",
+          {},
+          h(
+            "tr",
+            {},
+            h("th", {}, "error"),
+            h("th", { class: "number" }, "without it"),
+            h("th", { class: "number" }, "change"),
+          ),
+        ),
+        h(
+          "tbody",
+          {},
+          value.errors.map((effect) =>
+            h(
+              "tr",
+              { dataError: effect.error },
+              h("td", {}, effect.error),
+              h("td", { class: "number" }, number(1e3 * effect.without_mm, 2)),
+              h("td", { class: "number" }, number(1e3 * (effect.without_mm - value.value_mm), 2)),
+            ),
+          ),
+        ),
+      ),
+    );
+  }
+
+  private showSurfaces(document: DrawingHeader["document"]): void {
+    const cell = (point: CutPoint): HTMLElement =>
+      h(
+        "td",
+        { class: "number", title: `${point.nominal_mm.map((c, k) => `${"XYZ"[k]} ${c.toFixed(2)}`).join(" ")} mm` },
+        number(1e3 * point.deviation_mm, 2),
+        h("span", { class: "muted" }, ` T${point.tool} line ${point.line}`),
+      );
+    fill(
+      this.surfaces,
+      h("div", { class: "panel-head" }, h("h2", {}, "Surfaces, deviations in µm")),
+      h(
+        "table",
+        { class: "hole-sets" },
+        h(
+          "thead",
+          {},
+          h(
+            "tr",
+            {},
+            h("th", {}, "feature"),
+            h("th", { class: "number" }, "points"),
+            h("th", { class: "number" }, "most left"),
+            h("th", { class: "number" }, "most missing"),
+          ),
+        ),
+        h(
+          "tbody",
+          {},
+          document.features.map((feature) =>
+            h(
+              "tr",
+              { dataFeature: feature.name },
+              h("td", {}, feature.name),
+              h("td", { class: "number" }, String(feature.points)),
+              cell(feature.most),
+              cell(feature.least),
+            ),
+          ),
+        ),
+      ),
+    );
+  }
+}
+
+const allowed = (value: CharacteristicValue): string =>
+  value.low_mm === null
+    ? number(1e3 * value.high_mm, 1)
+    : `${number(1e3 * value.low_mm, 1)} … ${number(1e3 * value.high_mm, 1)}`;
