@@ -534,6 +534,9 @@ export type ServePredict =
     })
   | (HolesEntry & {
       kind: "holes";
+    })
+  | (DrawingEntry & {
+      kind: "drawing";
     });
 /**
  * The content of a file, by its ending and, for TOML, by its sections.
@@ -707,6 +710,9 @@ export type ServeWhatIf =
     })
   | (HolesEntry & {
       kind: "holes";
+    })
+  | (DrawingEntry & {
+      kind: "drawing";
     });
 
 /**
@@ -751,6 +757,7 @@ export interface Documents {
   pose: Pose;
   post: Post;
   "predict-holes": PredictHoles;
+  "predict-part": PredictPart;
   predict: Predict;
   refused: Refused;
   "serve-array": ServeArray;
@@ -9594,6 +9601,199 @@ export interface HoleEntry {
   time_s: number;
 }
 /**
+ * A part before it is cut, judged by its drawing: `trueaxis/predict/1`.
+ */
+export interface PredictPart {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/predict/1";
+  /**
+   * The name of the study.
+   */
+  name: string;
+  /**
+   * The name of the part.
+   */
+  part: string;
+  /**
+   * `pass`, `fail`, or `undecided` within the uncertainty.
+   */
+  outcome: string;
+  /**
+   * Steps of the tools.
+   */
+  steps: number;
+  /**
+   * The lines of the drawing, in the order of the part file.
+   */
+  characteristics: CharacteristicEntry[];
+  /**
+   * The features, in the order of the part file.
+   */
+  features: FeatureEntry[];
+  /**
+   * The problems found in the input; the command line prints them on standard error, too.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * One line of the drawing.
+ */
+export interface CharacteristicEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * What is asked, such as `flatness`.
+   */
+  kind: string;
+  /**
+   * Of which feature.
+   */
+  feature: string;
+  /**
+   * To which feature; null without a datum.
+   */
+  datum: string | null;
+  /**
+   * Its value; of a size the deviation from the nominal one, mm.
+   */
+  value_mm: number;
+  /**
+   * Standard uncertainty of that, by the stated uncertainties of the machine, mm.
+   */
+  u_mm: number;
+  /**
+   * The value that the program leaves on a machine without errors, mm.
+   */
+  nominal_mm: number;
+  /**
+   * The least value allowed; null for a zone, mm.
+   */
+  low_mm: number | null;
+  /**
+   * The largest value allowed, mm.
+   */
+  high_mm: number;
+  /**
+   * How much of the tolerance is used, 1 at a limit. Unit: 1.
+   */
+  used_ratio: number;
+  /**
+   * `pass`, `fail` or `undecided`.
+   */
+  outcome: string;
+  /**
+   * The errors that matter most, the largest first.
+   */
+  errors: ErrorEffectEntry[];
+}
+/**
+ * What an error does to a characteristic.
+ */
+export interface ErrorEffectEntry {
+  /**
+   * Its ISO 230-1 name.
+   */
+  error: string;
+  /**
+   * The value without it, mm.
+   */
+  without_mm: number;
+}
+/**
+ * A feature as it was cut.
+ */
+export interface FeatureEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * `plane`, `cylinder`, `cone`, `sphere` or `points`.
+   */
+  shape: string;
+  /**
+   * How many points it has.
+   */
+  points: number;
+  /**
+   * The point with the most material left.
+   */
+  most: ServeWhatIfPointEntry;
+  /**
+   * The point with the most material missing, or the least left.
+   */
+  least: ServeWhatIfPointEntry;
+  /**
+   * Mean of the deviations, mm.
+   */
+  mean_mm: number;
+}
+/**
+ * A point of a feature.
+ */
+export interface ServeWhatIfPointEntry {
+  /**
+   * Where it should be in the workpiece frame, mm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  nominal_mm: [number, number, number];
+  /**
+   * The deviation along the normal; positive where material is left, mm.
+   */
+  deviation_mm: number;
+  /**
+   * What the program leaves there on a machine without errors, mm.
+   */
+  by_program_mm: number;
+  /**
+   * The tool that cut it.
+   */
+  tool: number;
+  /**
+   * The line of the program.
+   */
+  line: number;
+  /**
+   * When, from the start of the program, s.
+   */
+  time_s: number;
+}
+/**
  * A test piece before it is cut: `trueaxis/predict/1`.
  */
 export interface Predict {
@@ -11322,6 +11522,53 @@ export interface HolesDocument {
    * What to know of this prediction.
    */
   warnings: string[];
+}
+/**
+ * The prediction of a part by its drawing. Arrays, point after point of all features: `places_mm` (f32: three nominal
+ * coordinates each), `deviation_um` (f32).
+ */
+export interface DrawingEntry {
+  /**
+   * The document of `trueaxis predict`.
+   */
+  document: DrawingDocument;
+  /**
+   * The problems of the study.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * A part before it is cut, judged by its drawing: `trueaxis/predict/1`.
+ */
+export interface DrawingDocument {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/predict/1";
+  /**
+   * The name of the study.
+   */
+  name: string;
+  /**
+   * The name of the part.
+   */
+  part: string;
+  /**
+   * `pass`, `fail`, or `undecided` within the uncertainty.
+   */
+  outcome: string;
+  /**
+   * Steps of the tools.
+   */
+  steps: number;
+  /**
+   * The lines of the drawing, in the order of the part file.
+   */
+  characteristics: CharacteristicEntry[];
+  /**
+   * The features, in the order of the part file.
+   */
+  features: FeatureEntry[];
 }
 /**
  * Which files and examples there are.

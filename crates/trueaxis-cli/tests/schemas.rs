@@ -124,6 +124,7 @@ const ANSWERS: &[(&str, &str)] = &[
     ),
     ("predict", "predict examples/03_predict/cone-on-i5.toml --no-report"),
     ("predict-holes", "predict examples/03_predict/torque-arm.toml --no-report"),
+    ("predict-part", "predict examples/03_predict/housing.toml --no-report"),
     (
         "simulate",
         "simulate machines/i5-engraver/machine.toml examples/02_simulate/ring-fanuc.nc --no-report",
