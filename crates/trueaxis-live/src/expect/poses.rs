@@ -313,7 +313,7 @@ mod tests {
     /// A hundredth of the travel is left at each end: 10 mm of 1000 mm, 6 mm of 600 mm.
     #[test]
     fn the_poses_of_a_day_leave_room_at_the_ends() {
-        let text = "[machine]\nname = \"mill\"\nchain = \"w b X Y t\"\n[axis.X]\ntravel = [\"100 mm\", \"1100 mm\"]\n\
+        let text = "[machine]\nname = \"mill\"\nchain = \"w b X Y Z t\"\n[axis.X]\ntravel = [\"100 mm\", \"1100 mm\"]\n\
                     [axis.Y]\ntravel = [\"-300 mm\", \"300 mm\"]\n";
         let machine = Machine::check("mill.toml", text, &NoTables).0.expect("a machine");
         let poses = inside(&machine);

@@ -94,7 +94,11 @@ impl Kind {
 
     /// In words.
     pub fn name(self) -> String {
-        self.key().replace('_', " ").replace("run out", "run-out")
+        match self {
+            Self::CircularRunOut => "circular run-out".to_owned(),
+            Self::TotalRunOut => "total run-out".to_owned(),
+            _ => self.key().to_owned(),
+        }
     }
 
     /// Whether it needs a datum.

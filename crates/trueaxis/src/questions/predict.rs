@@ -85,6 +85,12 @@ impl Question for Predict {
             return study.map(Box::new).map(PredictInput::Holes);
         }
         if is_part_study(files, &self.study) {
+            if self.samples.is_some() || self.seed.is_some() {
+                let message =
+                    "a part has no Monte Carlo run: its u comes from linear propagation".to_owned();
+                let place = Place::whole("--samples, --seed");
+                problems.error("contradiction", place, message, "leave them out");
+            }
             let study = problems.keep(read_part_study(files, &self.study));
             return study.map(Box::new).map(PredictInput::Drawing);
         }

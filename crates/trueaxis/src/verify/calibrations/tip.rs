@@ -125,7 +125,7 @@ mod tests {
     fn the_change_is_that_from_the_old_to_the_new() {
         let machine = |squareness: &str| {
             let text = format!(
-                "[machine]\nname = \"mill\"\nchain = \"w b X Y t\"\n[axis.X]\ntravel = [\"0 mm\", \"500 mm\"]\n[axis.Y]\n\
+                "[machine]\nname = \"mill\"\nchain = \"w b X Y Z t\"\n[axis.X]\ntravel = [\"0 mm\", \"500 mm\"]\n[axis.Y]\n\
                  travel = [\"0 mm\", \"800 mm\"]\n[location]\nEC0Y = \"{squareness}\"\n"
             );
             Machine::check("mill.toml", &text, &NoTables).0.expect("a machine")
