@@ -9785,7 +9785,11 @@ export interface ServeWhatIfPointEntry {
    */
   tool: number;
   /**
-   * The line of the program.
+   * The file of the program, or of a subprogram.
+   */
+  program: string;
+  /**
+   * Its line.
    */
   line: number;
   /**

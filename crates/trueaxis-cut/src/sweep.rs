@@ -112,9 +112,7 @@ fn divide(
     if turn > 3.1 {
         return Err(SweepError::Turned(i));
     }
-    // Where only a ball is seen the turn does not matter; else short motions leave the tree more to choose from.
-    let slack = if cutter.ball_mm().is_some() { MOST_SLACK_MM } else { bound_mm };
-    let count = (slack_mm(cutter, step) / slack).sqrt().max(turn / MOST_TURN_RAD);
+    let count = (slack_mm(cutter, step) / MOST_SLACK_MM).sqrt().max(turn / MOST_TURN_RAD);
     let count = count.ceil().max(1.0);
     if count > MOST_MOTIONS as f64 || motions.len() + count as usize > MOST_MOTIONS {
         return Err(SweepError::TooMany);

@@ -301,6 +301,24 @@ impl Fitter {
         Ok(self.zone(center, self.polar.min))
     }
 
+    /// The radius of the smallest circle around points of any number, which may lie on a line or coincide: half of the diameter of a
+    /// cylinder around the points of a median line.
+    ///
+    /// ```
+    /// use trueaxis_form::circle::Fitter;
+    /// let on_a_line = [[0.0, 0.0], [3.0, 4.0], [1.5, 2.0]];
+    /// assert_eq!(Fitter::default().enclosing_radius_mm(&on_a_line)?, 2.5);
+    /// assert_eq!(Fitter::default().enclosing_radius_mm(&[[7.0, 7.0]])?, 0.0);
+    /// # Ok::<(), trueaxis_form::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// No point, or one that is not finite.
+    pub fn enclosing_radius_mm(&mut self, points_mm: &[[f64; 2]]) -> Result<f64, Error> {
+        self.cloud.put(points_mm, 1)?;
+        Ok(self.mcc().radius_mm)
+    }
+
     fn mcc(&mut self) -> Zone {
         let center = circumscribed::center(&self.cloud);
         self.polar.about(&self.cloud, center);
@@ -320,8 +338,19 @@ impl Fitter {
 
 impl Cloud {
     fn load(&mut self, points: &[[f64; 2]]) -> Result<(), Error> {
-        if points.len() < 3 {
-            return Err(Error::TooFewPoints { found: points.len(), needed: 3 });
+        self.put(points, 3)?;
+        // What the rounding of the coordinates alone can spread.
+        let noise = 8.0 * f64::EPSILON * self.origin[0].abs().max(self.origin[1].abs());
+        if self.size <= noise.max(1.0 / LARGEST_MM) {
+            return Err(Error::Coincident);
+        }
+        if self.is_line(noise) { Err(Error::Collinear) } else { Ok(()) }
+    }
+
+    /// The points about their mean, wherever they are.
+    fn put(&mut self, points: &[[f64; 2]], needed: usize) -> Result<(), Error> {
+        if points.len() < needed {
+            return Err(Error::TooFewPoints { found: points.len(), needed });
         }
         let usable = |p: &[f64; 2]| p[0].abs() <= LARGEST_MM && p[1].abs() <= LARGEST_MM;
         if let Some(index) = points.iter().position(|p| !usable(p)) {
@@ -335,12 +364,7 @@ impl Cloud {
         self.x.extend(points.iter().map(|p| p[0] - self.origin[0]));
         self.y.extend(points.iter().map(|p| p[1] - self.origin[1]));
         self.size = self.x.iter().chain(&self.y).fold(0.0, |m, v| f64::max(m, v.abs()));
-        // What the rounding of the coordinates alone can spread.
-        let noise = 8.0 * f64::EPSILON * self.origin[0].abs().max(self.origin[1].abs());
-        if self.size <= noise.max(1.0 / LARGEST_MM) {
-            return Err(Error::Coincident);
-        }
-        if self.is_line(noise) { Err(Error::Collinear) } else { Ok(()) }
+        Ok(())
     }
 
     fn len(&self) -> usize {

@@ -12,7 +12,6 @@ mod values;
 
 pub use characteristic::{Characteristic, Kind, Limits};
 pub use feature::{Feature, Geometry};
-pub use values::Cut;
 
 /// A checked part file.
 #[derive(Debug, Clone, PartialEq)]

@@ -232,16 +232,14 @@ fn kind_of_toml(name: &str, text: &str) -> FileKind {
     let begins = |words: &[&str]| {
         text.lines().any(|line| words.iter().any(|word| line.trim_start().starts_with(word)))
     };
-    let names_part = || {
-        text.lines().any(|line| line.split_once('=').is_some_and(|(key, _)| key.trim() == "part"))
-    };
     match () {
         () if name.ends_with(".setup.toml") => FileKind::Setup,
         () if begins(&["[machine]"]) => FileKind::Machine,
         () if begins(&["test_piece", "[holes]"]) => FileKind::Study,
         () if begins(&["[instrument.", "[[path]]"]) => FileKind::Campaign,
-        () if begins(&["program", "machine"]) && names_part() => FileKind::Study,
         () if begins(&["[correction]"]) && begins(&["[control]"]) => FileKind::Live,
+        // A part that is cut: after the plan of a live run, which has a `part` of its own.
+        () if begins(&["part ="]) && begins(&["program ="]) => FileKind::Study,
         () => FileKind::Other,
     }
 }

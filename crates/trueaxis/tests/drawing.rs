@@ -32,7 +32,7 @@ fn files(texts: &[(&str, String)]) -> Files {
     Files::none().with_texts(texts.iter().map(|(name, text)| (PathBuf::from(name), text.clone())))
 }
 
-fn study(texts: &[(&str, &str)]) -> Result<PartStudy, Diagnostics> {
+fn study<'t>(texts: &[(&'t str, &'t str)]) -> Result<PartStudy, Diagnostics> {
     let mut all = vec![
         ("s.toml", STUDY.to_owned()),
         ("m.toml", mill("")),
@@ -41,7 +41,8 @@ fn study(texts: &[(&str, &str)]) -> Result<PartStudy, Diagnostics> {
         ("p.setup.toml", SET_UP.to_owned()),
     ];
     for (name, text) in texts {
-        all.iter_mut().filter(|(n, _)| n == name).for_each(|(_, old)| *old = (*text).to_owned());
+        all.retain(|(n, _)| n != name);
+        all.push((name, (*text).to_owned()));
     }
     let (study, problems) = read_part_study(&files(&all), Path::new("s.toml"));
     study.ok_or(problems)
@@ -201,6 +202,45 @@ fn bad_drawings_are_refused_by_name() {
     ];
     for ((name, text), code) in cases {
         let codes = match study(&[(name, &text)]) {
+            Err(problems) => words(&problems),
+            Ok(study) => {
+                let mut problems = Diagnostics::new();
+                assert!(predict_part(&study, &mut problems).is_none(), "{code}");
+                words(&problems)
+            }
+        };
+        assert!(codes.iter().any(|w| w.starts_with(&format!("{code}:"))), "{code}: {codes:?}");
+    }
+}
+
+/// What the study says and nothing follows is refused: a guard band without u, a datum, a log; so is a program with motion that is left out.
+#[test]
+fn studies_that_ask_for_more_are_refused() {
+    let asked = |more: &str| format!("{STUDY}{more}\n");
+    let table = |row: &str| {
+        let text = "name = \"p\"\n[feature.f]\npoints = \"t.csv\"\n[[characteristic]]\nprofile = \"10 um\"\nof = \"f\"\n";
+        vec![("p.toml", text.to_owned()), ("t.csv", format!("x_mm,y_mm,z_mm,nx,ny,nz\n{row}\n"))]
+    };
+    for (texts, code) in [
+        (
+            vec![
+                ("s.toml", asked("[decision]\nrule = \"ISO 14253-1\"")),
+                ("m.toml", mill("EC0Y = \"9 urad\"")),
+            ],
+            "no-uncertainty",
+        ),
+        (vec![("s.toml", asked("[datum]\nbest_fit = true"))], "unknown-key"),
+        (vec![("s.toml", asked("[monte_carlo]\nsamples = 100"))], "unknown-key"),
+        (vec![("s.toml", asked("setup = \"other.toml\""))], "unreadable-file"),
+        (vec![("p.nc", PROGRAM.replace("G1 Y-46.", "G12.1\nG1 Y-46."))], "motion-left-out"),
+        (table("60,0,-10,1,0"), "ragged-row"),
+        (table("60,0,NaN,1,0,0"), "not-a-number"),
+        (table("60,0,-10,2,0,0"), "bad-direction"),
+        (vec![("p.toml", PART.replace("30 mm\"", "30 kg\""))], "unknown-unit"),
+        (vec![("p.toml", PART[..PART.len() / 3].to_owned())], "toml-syntax"),
+    ] {
+        let texts: Vec<(&str, &str)> = texts.iter().map(|(n, t)| (*n, t.as_str())).collect();
+        let codes = match study(&texts) {
             Err(problems) => words(&problems),
             Ok(study) => {
                 let mut problems = Diagnostics::new();

@@ -93,11 +93,11 @@ impl Kind {
     }
 
     /// In words.
-    pub fn name(self) -> String {
+    pub fn name(self) -> &'static str {
         match self {
-            Self::CircularRunOut => "circular run-out".to_owned(),
-            Self::TotalRunOut => "total run-out".to_owned(),
-            _ => self.key().to_owned(),
+            Self::CircularRunOut => "circular run-out",
+            Self::TotalRunOut => "total run-out",
+            _ => self.key(),
         }
     }
 

@@ -1,18 +1,12 @@
 //! From the cut surface to the values of the characteristics.
 
 use super::feature::across;
-use super::{Characteristic, Feature, Kind, Part};
+use super::{Characteristic, Feature, Geometry, Kind, Part};
 use crate::Error;
+use std::ops::Range;
 use trueaxis_form::circle::Fitter;
-use trueaxis_form::{Criterion, Element, Known, Shape, fit_by};
+use trueaxis_form::{Criterion, Element, Known, Reference, Shape, fit_by};
 use trueaxis_geometry::Vec3;
-
-/// The surface as it was cut: the deviation of each point along its normal, feature after feature.
-#[derive(Debug, Clone, Copy)]
-pub struct Cut<'a> {
-    /// Positive where material is left, mm.
-    pub deviation_mm: &'a [f64],
-}
 
 /// Places of a feature.
 struct Surface<'a> {
@@ -21,20 +15,28 @@ struct Surface<'a> {
     places_mm: Vec<Vec3>,
 }
 
+/// Sections across an axis, in coordinates of their planes.
+struct Sections {
+    axis: Vec3,
+    across: [Vec3; 2],
+    flat_mm: Vec<Vec<[f64; 2]>>,
+}
+
 impl Part {
-    /// The value of each characteristic, mm.
+    /// The value of each characteristic, mm, by the deviation of each point along its normal, feature after feature; positive where
+    /// material is left.
     ///
     /// # Errors
     /// A list of another length, a deviation that is not finite, points through which no element goes.
-    pub fn evaluate(&self, cut: &Cut<'_>) -> Result<Vec<f64>, Error> {
-        let (found, expected) = (cut.deviation_mm.len(), self.points());
+    pub fn evaluate(&self, deviation_mm: &[f64]) -> Result<Vec<f64>, Error> {
+        let (found, expected) = (deviation_mm.len(), self.points());
         if found != expected {
             return Err(Error::WrongLength { what: "deviations", found, expected });
         }
-        if let Some(index) = cut.deviation_mm.iter().position(|d| !d.is_finite()) {
+        if let Some(index) = deviation_mm.iter().position(|d| !d.is_finite()) {
             return Err(Error::NotFinite { index });
         }
-        let mut rest = cut.deviation_mm;
+        let mut rest = deviation_mm;
         let surfaces: Vec<Surface<'_>> = self
             .features
             .iter()
@@ -52,104 +54,123 @@ impl Part {
 
 fn value(asked: &Characteristic, surfaces: &[Surface<'_>]) -> Result<f64, Error> {
     let surface = &surfaces[asked.feature];
-    let datum = asked.datum.map(|datum| surfaces[datum].datum()).transpose()?;
+    let datum = || {
+        let datum =
+            asked.datum.ok_or_else(|| unfit("a characteristic without the datum that it needs"))?;
+        surfaces[datum].datum()
+    };
     match asked.kind {
         Kind::Flatness => surface.form(Element::Plane),
         Kind::Cylindricity => surface.form(Element::Cylinder),
         Kind::Roundness => surface.roundness(),
-        Kind::Diameter => {
-            let shape = surface.element(Element::Cylinder, Criterion::LeastSquares)?;
-            Ok(2.0 * (shape.radius_mm - surface.nominal_radius_mm()))
-        }
+        Kind::Diameter => surface.diameter(),
         Kind::Profile => Ok(2.0 * surface.farthest_mm()),
         Kind::Position => match surface.feature.geometry.axis() {
             Some((at, axis)) => surface.about_axis(&at, &axis),
             None => Ok(2.0 * surface.farthest_mm()),
         },
-        Kind::Parallelism => surface.oriented(&datum.ok_or_else(no_datum)?, true),
-        Kind::Perpendicularity => surface.oriented(&datum.ok_or_else(no_datum)?, false),
+        Kind::Parallelism => surface.oriented(&datum()?, true),
+        Kind::Perpendicularity => surface.oriented(&datum()?, false),
         Kind::Coaxiality => {
-            let datum = datum.ok_or_else(no_datum)?;
+            let datum = datum()?;
             surface.about_axis(&datum.point_mm, &datum.direction)
         }
-        Kind::CircularRunOut => surface.run_out(&datum.ok_or_else(no_datum)?, true),
-        Kind::TotalRunOut => surface.run_out(&datum.ok_or_else(no_datum)?, false),
+        Kind::CircularRunOut => Ok(surface.run_out(&datum()?, &surface.feature.sections)),
+        Kind::TotalRunOut => {
+            let whole = 0..surface.places_mm.len();
+            Ok(surface.run_out(&datum()?, std::slice::from_ref(&whole)))
+        }
     }
 }
 
-fn no_datum() -> Error {
-    Error::Shape { what: "a characteristic without the datum that it needs".to_owned() }
+/// What the reader of the part file refuses.
+fn unfit(what: &str) -> Error {
+    Error::Shape { what: what.to_owned() }
+}
+
+/// One element through places.
+fn element(
+    element: Element,
+    criterion: Criterion,
+    places_mm: &[Vec3],
+    known: &Known,
+) -> Result<Reference, Error> {
+    let fitted = fit_by(element, places_mm, known, &[criterion])?;
+    let found = fitted.references.into_iter().find(|r| r.criterion == criterion);
+    found.ok_or_else(|| unfit(&format!("the points have no element of {}", criterion.name())))
 }
 
 impl Surface<'_> {
-    fn element(&self, element: Element, criterion: Criterion) -> Result<Shape, Error> {
-        let fitted = fit_by(element, &self.places_mm, &Known::default(), &[criterion])?;
-        let reference = fitted.reference(criterion).unwrap_or(&fitted.references[0]);
-        Ok(reference.shape)
+    fn element(&self, kind: Element, criterion: Criterion) -> Result<Reference, Error> {
+        element(kind, criterion, &self.places_mm, &Known::default())
     }
 
-    fn form(&self, element: Element) -> Result<f64, Error> {
-        let fitted =
-            fit_by(element, &self.places_mm, &Known::default(), &[Criterion::MinimumZone])?;
-        let zone = fitted.reference(Criterion::MinimumZone).unwrap_or(&fitted.references[0]);
-        Ok(zone.form_mm())
+    fn form(&self, kind: Element) -> Result<f64, Error> {
+        Ok(self.element(kind, Criterion::MinimumZone)?.form_mm())
+    }
+
+    fn diameter(&self) -> Result<f64, Error> {
+        let Geometry::Cylinder { radius_mm, .. } = self.feature.geometry else {
+            return Err(unfit("the diameter of what is no cylinder"));
+        };
+        let found = self.element(Element::Cylinder, Criterion::LeastSquares)?;
+        Ok(2.0 * (found.shape.radius_mm - radius_mm))
     }
 
     /// The associated element, ISO 5459: the plane of the minimum zone, the axis of the largest inscribed cylinder of a hole,
     /// of the smallest circumscribed one of a shaft.
     fn datum(&self) -> Result<Shape, Error> {
-        use super::Geometry;
-        match self.feature.geometry {
+        let (kind, criterion) = match self.feature.geometry {
+            Geometry::Plane { .. } => (Element::Plane, Criterion::MinimumZone),
             Geometry::Cylinder { is_hole: true, .. } => {
-                self.element(Element::Cylinder, Criterion::MaximumInscribed)
+                (Element::Cylinder, Criterion::MaximumInscribed)
             }
-            Geometry::Cylinder { .. } => {
-                self.element(Element::Cylinder, Criterion::MinimumCircumscribed)
-            }
-            _ => self.element(Element::Plane, Criterion::MinimumZone),
-        }
-    }
-
-    fn nominal_radius_mm(&self) -> f64 {
-        match self.feature.geometry {
-            super::Geometry::Cylinder { radius_mm, .. } => radius_mm,
-            _ => 0.0,
-        }
+            Geometry::Cylinder { .. } => (Element::Cylinder, Criterion::MinimumCircumscribed),
+            _ => return Err(unfit("a datum that is neither a plane nor a cylinder")),
+        };
+        Ok(self.element(kind, criterion)?.shape)
     }
 
     fn farthest_mm(&self) -> f64 {
         self.deviation_mm.iter().fold(0.0, |most: f64, d| most.max(d.abs()))
     }
 
-    /// Each section across an axis, in its plane.
-    fn sections(&self, axis: &Vec3) -> impl Iterator<Item = Vec<[f64; 2]>> {
-        let [x, y] = across(axis);
-        self.feature.sections.iter().map(move |section| {
-            self.places_mm[section.clone()].iter().map(|p| [p.dot(&x), p.dot(&y)]).collect()
-        })
+    /// The axis, and each section across it in coordinates of its plane.
+    ///
+    /// Material along the normal is more in the plane of the section of a cone: δ / cos α, as in docs/model.md eq. 21.
+    fn sections(&self) -> Result<Sections, Error> {
+        let Some((_, axis)) = self.feature.geometry.axis() else {
+            return Err(unfit("a section of what has no axis"));
+        };
+        let [x, y] = across(&axis);
+        let flat = |i: usize| {
+            let point = &self.feature.points[i];
+            let out = point.normal - axis * point.normal.dot(&axis);
+            let place = point.point_mm + out * (self.deviation_mm[i] / out.norm_squared());
+            [place.dot(&x), place.dot(&y)]
+        };
+        let sections = self.feature.sections.iter().map(|s| s.clone().map(flat).collect());
+        Ok(Sections { axis, across: [x, y], flat_mm: sections.collect() })
     }
 
     fn roundness(&self) -> Result<f64, Error> {
-        let Some((_, axis)) = self.feature.geometry.axis() else { return Err(no_datum()) };
         let mut fitter = Fitter::default();
-        self.sections(&axis).try_fold(0.0, |most: f64, section| {
-            Ok(most.max(fitter.minimum_zone(&section)?.width_mm()))
+        let sections = self.sections()?;
+        sections.flat_mm.iter().try_fold(0.0, |most: f64, section| {
+            Ok(most.max(fitter.minimum_zone(section)?.width_mm()))
         })
     }
 
     /// The centres of the sections by least squares: the extracted median line.
     fn median_line(&self) -> Result<Vec<Vec3>, Error> {
-        let Some((_, axis)) = self.feature.geometry.axis() else { return Err(no_datum()) };
-        let [x, y] = across(&axis);
+        let Sections { axis, across: [x, y], flat_mm } = self.sections()?;
         let mut fitter = Fitter::default();
-        let mut centres = Vec::with_capacity(self.feature.sections.len());
-        for (points, section) in self.sections(&axis).zip(&self.feature.sections) {
-            let centre = fitter.least_squares(&points)?.center_mm;
-            let places = &self.places_mm[section.clone()];
-            let height = places.iter().map(|p| p.dot(&axis)).sum::<f64>() / places.len() as f64;
-            centres.push(x * centre[0] + y * centre[1] + axis * height);
-        }
-        Ok(centres)
+        let centre = |(flat, section): (&Vec<[f64; 2]>, &Range<usize>)| {
+            let [u, v] = fitter.least_squares(flat)?.center_mm;
+            let height = self.feature.points[section.start].point_mm.dot(&axis);
+            Ok(x * u + y * v + axis * height)
+        };
+        flat_mm.iter().zip(&self.feature.sections).map(centre).collect()
     }
 
     /// Twice the largest distance of the median line from an axis.
@@ -167,110 +188,43 @@ impl Surface<'_> {
     fn oriented(&self, datum: &Shape, is_parallel: bool) -> Result<f64, Error> {
         let is_axis = datum.element != Element::Plane;
         let direction = datum.direction;
+        let along = |places: &[Vec3]| places.iter().map(|p| p.dot(&direction)).collect::<Vec<_>>();
         match self.feature.geometry.axis() {
             // The planes of the zone have this normal, or one across it.
-            None if is_axis != is_parallel => Ok(range(&self.places_mm, &direction)),
+            None if is_axis != is_parallel => Ok(range(along(&self.places_mm))),
             None => least_range(&self.places_mm, &direction),
             // The axis of the zone is the direction of the datum.
             Some(_) if is_axis == is_parallel => {
-                Ok(2.0 * enclosing_radius(&self.median_line()?, &direction))
+                let [x, y] = across(&direction);
+                let centres = self.median_line()?;
+                let flat: Vec<[f64; 2]> = centres.iter().map(|p| [p.dot(&x), p.dot(&y)]).collect();
+                Ok(2.0 * Fitter::default().enclosing_radius_mm(&flat)?)
             }
-            Some(_) => Ok(range(&self.median_line()?, &direction)),
+            Some(_) => Ok(range(along(&self.median_line()?))),
         }
     }
 
-    fn run_out(&self, datum: &Shape, each: bool) -> Result<f64, Error> {
+    /// The largest range of the distances from an axis among some stretches of the points.
+    fn run_out(&self, datum: &Shape, stretches: &[Range<usize>]) -> f64 {
         let off = |p: &Vec3| {
             let arm = p - datum.point_mm;
             (arm - datum.direction * arm.dot(&datum.direction)).norm()
         };
-        let range = |places: &[Vec3]| {
-            let all = places.iter().map(off);
-            all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
-        };
-        if each {
-            let sections = self.feature.sections.iter().map(|s| range(&self.places_mm[s.clone()]));
-            return Ok(sections.fold(0.0, f64::max));
-        }
-        Ok(range(&self.places_mm))
+        let ranges = stretches.iter().map(|s| range(self.places_mm[s.clone()].iter().map(off)));
+        ranges.fold(0.0, f64::max)
     }
 }
 
-/// How far points are apart along a direction.
-fn range(places_mm: &[Vec3], direction: &Vec3) -> f64 {
-    let all = places_mm.iter().map(|p| p.dot(direction));
-    all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
+/// The largest value less the smallest.
+fn range(values: impl IntoIterator<Item = f64>) -> f64 {
+    let ends = (f64::MAX, f64::MIN);
+    let (low, high) = values.into_iter().fold(ends, |(low, high), v| (low.min(v), high.max(v)));
+    high - low
 }
 
 /// The least distance of two parallel planes around points, both along a direction.
 fn least_range(places_mm: &[Vec3], along: &Vec3) -> Result<f64, Error> {
     let flat: Vec<Vec3> = places_mm.iter().map(|p| p - along * p.dot(along)).collect();
     let known = Known { normal: Some(*along) };
-    let fitted = fit_by(Element::Line, &flat, &known, &[Criterion::MinimumZone])?;
-    let zone = fitted.reference(Criterion::MinimumZone).unwrap_or(&fitted.references[0]);
-    Ok(zone.form_mm())
-}
-
-/// The radius of the smallest cylinder along a direction around points.
-///
-/// # Source
-/// E. Welzl, Smallest enclosing disks (balls and ellipsoids), 1991: a point outside of the circle so far is on the next one.
-fn enclosing_radius(places_mm: &[Vec3], direction: &Vec3) -> f64 {
-    let [x, y] = across(direction);
-    let flat: Vec<[f64; 2]> = places_mm.iter().map(|p| [p.dot(&x), p.dot(&y)]).collect();
-    let mut circle = Circle::default();
-    for (i, p) in flat.iter().enumerate() {
-        if i > 0 && circle.contains(p) {
-            continue;
-        }
-        circle = Circle { centre: *p, radius: 0.0 };
-        for (j, q) in flat[..i].iter().enumerate() {
-            if circle.contains(q) {
-                continue;
-            }
-            circle = Circle::over(p, q);
-            for r in &flat[..j] {
-                if !circle.contains(r) {
-                    circle = Circle::through(p, q, r);
-                }
-            }
-        }
-    }
-    circle.radius
-}
-
-#[derive(Debug, Clone, Copy, Default)]
-struct Circle {
-    centre: [f64; 2],
-    radius: f64,
-}
-
-impl Circle {
-    fn contains(&self, p: &[f64; 2]) -> bool {
-        distance(&self.centre, p) <= self.radius * (1.0 + 1e-12) + 1e-12
-    }
-
-    fn over(p: &[f64; 2], q: &[f64; 2]) -> Self {
-        let centre = [0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])];
-        Self { centre, radius: 0.5 * distance(p, q) }
-    }
-
-    fn through(p: &[f64; 2], q: &[f64; 2], r: &[f64; 2]) -> Self {
-        let (a, b) = ([q[0] - p[0], q[1] - p[1]], [r[0] - p[0], r[1] - p[1]]);
-        let [aa, bb] = [a, b].map(|v| v[0] * v[0] + v[1] * v[1]);
-        let twice = 2.0 * (a[0] * b[1] - a[1] * b[0]);
-        let off = [(b[1] * aa - a[1] * bb) / twice, (a[0] * bb - b[0] * aa) / twice];
-        if !off.iter().all(|c| c.is_finite()) {
-            // On one line: the two that are farthest apart.
-            let pairs = [Self::over(p, q), Self::over(p, r), Self::over(q, r)];
-            return pairs
-                .into_iter()
-                .fold(pairs[0], |most, c| if c.radius > most.radius { c } else { most });
-        }
-        Self { centre: [p[0] + off[0], p[1] + off[1]], radius: off[0].hypot(off[1]) }
-    }
-}
-
-fn distance(a: &[f64; 2], b: &[f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
+    Ok(element(Element::Line, Criterion::MinimumZone, &flat, &known)?.form_mm())
 }

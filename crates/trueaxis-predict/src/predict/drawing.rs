@@ -19,6 +19,7 @@ pub use study::{PartStudy, is_part_study, read_part_study};
 use super::study::Decision;
 use trueaxis_cut::{Cut, Nail, Reach, cut};
 use trueaxis_geometry::Vec3;
+use trueaxis_geometry::surface::SurfacePoint;
 use trueaxis_input::{Diagnostics, Place};
 use trueaxis_motion::{Findings, Observer};
 use trueaxis_part::part;
@@ -87,12 +88,19 @@ pub fn predict_part(study: &PartStudy, problems: &mut Diagnostics) -> Option<Par
     let zero = study.zero(problems)?;
     let mut path = CutPath::new(&study.job, &zero);
     let Findings { run, .. } = study.job.run(None, &mut [&mut path as &mut dyn Observer]);
+    let place = Place::whole(&study.path.display().to_string());
+    let left_out = run.motion_left_out().count();
     let has_errors = run.problems.has_errors();
     problems.append(run.problems);
-    if has_errors {
+    if left_out > 0 && !has_errors {
+        let message =
+            format!("the program moves the tool by {left_out} functions that are not executed");
+        let hint = "the surfaces would be others; the warnings name them";
+        problems.error("motion-left-out", place.clone(), message, hint);
+    }
+    if has_errors || left_out > 0 {
         return None;
     }
-    let place = Place::whole(&study.path.display().to_string());
     let (actual, nominal) = match path.sweeps() {
         Ok(sweeps) => sweeps,
         Err(why) => {
@@ -108,12 +116,8 @@ pub fn predict_part(study: &PartStudy, problems: &mut Diagnostics) -> Option<Par
     let nails = nails(&study.part);
     let [actual, nominal] = [actual, nominal].map(|sweeps| cut(&sweeps, &nails));
     let found = reached(study, &actual, problems)?;
-    let by_program: Vec<f64> =
-        nominal.iter().map(|r| r.cut().map_or(f64::NAN, |c| c.deviation_mm)).collect();
-    let reached_nominally = reached(study, &nominal, problems).is_some();
-    if !reached_nominally {
-        return None;
-    }
+    let by_program = reached(study, &nominal, problems)?;
+    let by_program: Vec<f64> = by_program.iter().map(|c| c.deviation_mm).collect();
     let deviations: Vec<f64> = found.iter().map(|c| c.deviation_mm).collect();
     let values = budget::values(study, &path, (&nails, &found), (&deviations, &by_program));
     let values = match values {
@@ -152,7 +156,7 @@ pub fn predict_part(study: &PartStudy, problems: &mut Diagnostics) -> Option<Par
 fn nails(part: &part::Part) -> Vec<Nail> {
     let of = |feature: &part::Feature| {
         let (below_mm, above_mm) = (feature.below_mm, feature.above_mm);
-        let nail = move |p: &trueaxis_geometry::surface::SurfacePoint| Nail {
+        let nail = move |p: &SurfacePoint| Nail {
             foot_mm: p.point_mm,
             normal: p.normal,
             below_mm,

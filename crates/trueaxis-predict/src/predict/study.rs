@@ -249,7 +249,11 @@ fn check_servo(
 }
 
 /// A guard band of nothing would pass what is not known.
-fn check_uncertainties(root: &Section<'_>, decision: Option<Decision>, machine: &Machine) {
+pub(super) fn check_uncertainties(
+    root: &Section<'_>,
+    decision: Option<Decision>,
+    machine: &Machine,
+) {
     let Some(Decision::Guarded { .. }) = decision else { return };
     let stated = machine.stated_errors();
     let without = stated.iter().filter(|(index, name)| {
@@ -394,7 +398,7 @@ fn read_mounting(root: &Section<'_>, machine: Machine, piece: &TestPieceFile) ->
     Some(machine)
 }
 
-pub(super) fn read_reference(root: &Section<'_>, machine: &Machine) -> Reference {
+fn read_reference(root: &Section<'_>, machine: &Machine) -> Reference {
     let setting = root.section("setting", |s| read_setting(s, machine, &[]));
     let datum = root.section("datum", read_datum);
     Reference {
@@ -407,7 +411,11 @@ pub(super) fn read_reference(root: &Section<'_>, machine: &Machine) -> Reference
 const HOLE: &str = "reference_hole_depth";
 
 /// `C = "90 deg"`, `A = "10 deg"`, or `perfect = true`; `others` are keys that someone else reads.
-fn read_setting(section: &Section<'_>, machine: &Machine, others: &[&str]) -> Option<Setting> {
+pub(super) fn read_setting(
+    section: &Section<'_>,
+    machine: &Machine,
+    others: &[&str],
+) -> Option<Setting> {
     let perfect = section.get("perfect").and_then(|i| i.flag()).unwrap_or(false);
     let mut rotary = Command::default();
     for (key, place, item) in section.entries() {

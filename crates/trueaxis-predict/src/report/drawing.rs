@@ -89,8 +89,13 @@ fn budget<'a>(study: &PartStudy, prediction: &PartPrediction) -> Section<'a> {
 
 fn features<'a>(study: &PartStudy, prediction: &PartPrediction) -> Section<'a> {
     let place = |p: &CutPoint| {
+        // Lines of the main program need no name of a file.
+        let subprogram = match p.origin.program {
+            0 => String::new(),
+            other => format!(" {}", prediction.programs.get(other as usize).map_or("", |f| f)),
+        };
         format!(
-            "{} at X {:.2} Y {:.2} Z {:.2}, T{} line {}, {:.1} s",
+            "{} at X {:.2} Y {:.2} Z {:.2}, T{}{subprogram} line {}, {:.1} s",
             um(p.deviation_mm),
             p.nominal_mm.x,
             p.nominal_mm.y,

@@ -95,7 +95,9 @@ pub struct PointEntry {
     pub by_program_mm: f64,
     /// The tool that cut it.
     pub tool: u32,
-    /// The line of the program.
+    /// The file of the program, or of a subprogram.
+    pub program: String,
+    /// Its line.
     pub line: u32,
     /// When, from the start of the program, s.
     pub time_s: f64,
@@ -125,7 +127,9 @@ impl<'a> DrawingDocument<'a> {
             characteristics: asked
                 .map(|(asked, value)| CharacteristicEntry::of(&part.features, asked, value))
                 .collect(),
-            features: features.map(|(f, cut)| FeatureEntry::of(f, &cut.points)).collect(),
+            features: features
+                .map(|(f, cut)| FeatureEntry::of(f, &cut.points, &prediction.programs))
+                .collect(),
         }
     }
 }
@@ -166,23 +170,25 @@ pub(super) fn extremes(points: &[CutPoint]) -> [&CutPoint; 2] {
 }
 
 impl<'a> FeatureEntry<'a> {
-    fn of(feature: &'a Feature, points: &[CutPoint]) -> Self {
+    fn of(feature: &'a Feature, points: &[CutPoint], programs: &[String]) -> Self {
         let [most, least] = extremes(points);
         let sum: f64 = points.iter().map(|p| p.deviation_mm).sum();
         Self {
             name: &feature.name,
             shape: feature.geometry.name(),
             points: points.len(),
-            most: PointEntry::of(most),
-            least: PointEntry::of(least),
+            most: PointEntry::of(most, programs),
+            least: PointEntry::of(least, programs),
             mean_mm: sum / points.len() as f64,
         }
     }
 }
 
 impl PointEntry {
-    fn of(point: &CutPoint) -> Self {
+    fn of(point: &CutPoint, programs: &[String]) -> Self {
+        let program = programs.get(point.origin.program as usize).cloned().unwrap_or_default();
         Self {
+            program,
             nominal_mm: point.nominal_mm.into(),
             deviation_mm: point.deviation_mm,
             by_program_mm: point.by_program_mm,

@@ -4,7 +4,7 @@ import { diagnosticList, split, type App } from "../../app.ts";
 import { fill, h } from "../../dom.ts";
 import { number } from "../../format.ts";
 import { studyChoice } from "./summary.ts";
-import type { CharacteristicValue, CutPoint, DrawingHeader } from "./types.ts";
+import type { CharacteristicValue, CutPoint, DrawingHeader, Verdict } from "./types.ts";
 
 const SENTENCES = {
   pass: "the part will be in tolerance",
@@ -41,7 +41,7 @@ export class Drawing {
     fill(
       this.verdict,
       h("strong", { dataTest: "verdict" }, document.outcome.toUpperCase()),
-      h("span", {}, SENTENCES[document.outcome]),
+      h("span", {}, SENTENCES[document.outcome as Verdict]),
       h(
         "span",
         { class: "verdict-worst", dataTest: "worst" },

@@ -1,6 +1,7 @@
 /** The answers of `predict` and `what-if`, and the names of the indices. */
 
 import type { Diagnostic } from "../../api.ts";
+import type { DrawingDocument, DrawingEntry } from "../../../types.d.ts";
 import type { Frame } from "../../frame.ts";
 
 export type Verdict = "pass" | "fail" | "undecided";
@@ -128,42 +129,9 @@ export interface HolesHeader {
   diagnostics: Diagnostic[];
 }
 
-export interface CutPoint {
-  nominal_mm: [number, number, number];
-  deviation_mm: number;
-  by_program_mm: number;
-  tool: number;
-  line: number;
-  time_s: number;
-}
-
-export interface CharacteristicValue {
-  name: string;
-  kind: string;
-  feature: string;
-  datum: string | null;
-  value_mm: number;
-  u_mm: number;
-  nominal_mm: number;
-  low_mm: number | null;
-  high_mm: number;
-  used_ratio: number;
-  outcome: Verdict;
-  errors: { error: string; without_mm: number }[];
-}
-
-export interface DrawingHeader {
-  kind: "drawing";
-  document: {
-    name: string;
-    part: string;
-    outcome: Verdict;
-    steps: number;
-    characteristics: [CharacteristicValue, ...CharacteristicValue[]];
-    features: { name: string; shape: string; points: number; most: CutPoint; least: CutPoint; mean_mm: number }[];
-  };
-  diagnostics: Diagnostic[];
-}
+export type DrawingHeader = DrawingEntry & { kind: "drawing" };
+export type CharacteristicValue = DrawingDocument["characteristics"][number];
+export type CutPoint = DrawingDocument["features"][number]["most"];
 
 /** What the command line calls the indices. */
 const TITLES: Record<string, string> = {

@@ -79,9 +79,7 @@ pub(super) fn values(
     };
     let all = Cuts { places, zero };
     let part = &study.part;
-    let evaluate = |deviation_mm: &[f64]| {
-        part.evaluate(&part::Cut { deviation_mm }).map_err(|e| e.to_string())
-    };
+    let evaluate = |deviation_mm: &[f64]| part.evaluate(deviation_mm).map_err(|e| e.to_string());
     let actual = evaluate(deviations)?;
     let nominal = evaluate(by_program)?;
     let mut variance = vec![0.0; actual.len()];

@@ -2,7 +2,7 @@
 
 use super::super::Setting;
 use super::super::cutting::setting_command;
-use super::super::study::{Decision, read_decision, read_reference};
+use super::super::study::{Decision, check_uncertainties, read_decision, read_setting};
 use super::super::temperatures::StudyTemperatures;
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
@@ -78,9 +78,17 @@ fn read(root: &Section<'_>, path: &Path) -> Option<PartStudy> {
     let part = part_path.as_ref().and_then(|p| Part::of_file(root.files(), p, &mut problems));
     let hint = "the program that cuts the part, relative to the study file";
     let program = root.require("program", hint).and_then(|i| i.text());
-    let set_up = root.text("set_up").map(|name| folder.join(name));
-    let decision = root.section("decision", read_decision);
-    let reference = machine.as_ref().map(|machine| read_reference(root, machine));
+    let setup = root.text("setup").map(|name| folder.join(name));
+    let decision = root.section("decision", read_decision).unwrap_or(Some(Decision::Simple));
+    let setting = machine.as_ref().map(|machine| {
+        check_uncertainties(root, decision, machine);
+        root.section("setting", |s| read_setting(s, machine, &[])).flatten().unwrap_or_default()
+    });
+    if temperatures.running.is_some() {
+        let message =
+            "a part is cut at the temperatures of one time; a log is not followed".to_owned();
+        root.error("contradiction", message, "state the temperatures in [temperature]");
+    }
     if machine.is_none() {
         // What needs the machine is not called unknown.
         root.entries();
@@ -91,7 +99,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<PartStudy> {
             files: root.files(),
             program: &program,
             text: None,
-            setup: set_up.as_deref(),
+            setup: setup.as_deref(),
             control: None,
         };
         let options = Options { densify: PLACES, ..Options::default() };
@@ -100,7 +108,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<PartStudy> {
     root.take_over(problems);
     let (job, part) = (job?, part?);
     let mounted = job.setup.mounted(&job.machine);
-    let setting = match reference?.setting {
+    let setting = match setting? {
         Setting::Perfect => None,
         touched @ Setting::Touched { .. } => match setting_command(&mounted, &touched) {
             Ok(command) => Some(command),
@@ -119,7 +127,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<PartStudy> {
         mounted,
         setting,
         job,
-        decision: decision.unwrap_or(Some(Decision::Simple))?,
+        decision: decision?,
     })
 }
 

@@ -1,0 +1,175 @@
+//! Values of a drawing by hand: surfaces that are displaced, turned, larger or out of form by so much.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+use trueaxis_geometry::Vec3;
+use trueaxis_geometry::surface::SurfacePoint;
+use trueaxis_input::{Files, SourceText};
+use trueaxis_part::part::Part;
+
+const FEATURES: &str = "name = \"p\"\n\
+    [feature.base]\nplane = { at = \"0 0 0 mm\", normal = \"0 0 1\", along = \"1 0 0\", size = \"100 60 mm\" }\nspacing = \"10 mm\"\n\
+    [feature.top]\nplane = { at = \"0 0 20 mm\", normal = \"0 0 1\", along = \"1 0 0\", size = \"100 60 mm\" }\nspacing = \"10 mm\"\n\
+    [feature.wall]\nplane = { at = \"50 0 10 mm\", normal = \"1 0 0\", along = \"0 1 0\", size = \"60 20 mm\" }\nspacing = \"5 mm\"\n\
+    [feature.hole]\nhole = { at = \"10 5 0 mm\", axis = \"0 0 1\", diameter = \"40 mm\", length = \"50 mm\" }\nspacing = \"5 mm\"\n\
+    [feature.shaft]\ncylinder = { at = \"10 5 60 mm\", axis = \"0 0 1\", diameter = \"30 mm\", length = \"40 mm\" }\nspacing = \"5 mm\"\n\
+    [feature.cone]\ncone = { at = \"10 5 100 mm\", axis = \"0 0 1\", diameters = \"60 20 mm\", length = \"20 mm\" }\nspacing = \"5 mm\"\n";
+
+/// The part with characteristics.
+fn part(asked: &[(&str, &str, &str)]) -> Part {
+    let mut text = FEATURES.to_owned();
+    for (kind, of, datum) in asked {
+        text += &format!("[[characteristic]]\n{kind} = \"20 um\"\nof = \"{of}\"\n");
+        if !datum.is_empty() {
+            text += &format!("datum = \"{datum}\"\n");
+        }
+    }
+    let source = SourceText::from(&Files::none(), "p.toml", &text);
+    let part = source.read(|root| Part::read(root, Path::new("")));
+    let problems = source.finish();
+    part.unwrap_or_else(|| panic!("{:?}", problems.iter().map(|p| &p.message).collect::<Vec<_>>()))
+}
+
+/// The values after a feature was changed by so much along its normals.
+fn values(
+    asked: &[(&str, &str, &str)],
+    changed: &str,
+    by: &dyn Fn(&SurfacePoint) -> f64,
+) -> Vec<f64> {
+    let part = part(asked);
+    let of = |f: &trueaxis_part::part::Feature| {
+        let change = |p| if f.name == changed { by(p) } else { 0.0 };
+        f.points.iter().map(change).collect::<Vec<f64>>()
+    };
+    let deviation_mm: Vec<f64> = part.features.iter().flat_map(of).collect();
+    part.evaluate(&deviation_mm).expect("values")
+}
+
+fn close(found: &[f64], due: &[f64], to: f64) {
+    assert_eq!(found.len(), due.len());
+    for (found, due) in found.iter().zip(due) {
+        assert!((found - due).abs() < to, "{found} {due}");
+    }
+}
+
+/// A nominal part has no deviations.
+#[test]
+fn law_the_nominal_part_is_nought() {
+    let asked = [
+        ("flatness", "top", ""),
+        ("profile", "wall", ""),
+        ("parallelism", "top", "base"),
+        ("perpendicularity", "wall", "base"),
+        ("perpendicularity", "hole", "base"),
+        ("parallelism", "shaft", "hole"),
+        ("coaxiality", "shaft", "hole"),
+        ("circular_run_out", "shaft", "hole"),
+        ("total_run_out", "shaft", "hole"),
+        ("cylindricity", "hole", ""),
+        ("roundness", "cone", ""),
+        ("diameter", "hole", ""),
+        ("position", "hole", ""),
+        ("position", "cone", ""),
+    ];
+    close(&values(&asked, "", &|_| 0.0), &[0.0; 14], 1e-9);
+}
+
+/// A plane that is turned by 100 µrad about Y: 90 mm between its outermost points make 9 µm of parallelism and of profile 2 · 4.5 µm, and
+/// it stays flat; one that is a saddle of ±3 µm at its outermost corners is 6 µm out of flat.
+#[test]
+fn law_a_plane_that_leans_and_one_that_is_bent() {
+    let asked = [("flatness", "top", ""), ("parallelism", "top", "base"), ("profile", "top", "")];
+    let leaning = values(&asked, "top", &|p| 1e-4 * p.point_mm.x);
+    close(&leaning, &[0.0, 9e-3, 9e-3], 1e-9);
+    let saddle = |p: &SurfacePoint| 3e-3 * (p.point_mm.x / 45.0) * (p.point_mm.y / 25.0);
+    close(&values(&asked, "top", &saddle), &[6e-3, 6e-3, 6e-3], 1e-9);
+    let asked = [("perpendicularity", "wall", "base"), ("position", "wall", "")];
+    // 15 mm between the outermost rows; about Z it may lean as it likes.
+    close(&values(&asked, "wall", &|p| 2e-4 * (p.point_mm.z - 10.0)), &[3e-3, 3e-3], 1e-8);
+    let about_z = values(&asked, "wall", &|p| 2e-4 * p.point_mm.y);
+    assert!(about_z[0] < 1e-8 && (about_z[1] - 2.0 * 2e-4 * 27.5).abs() < 1e-8, "{about_z:?}");
+}
+
+/// A shaft beside the axis of its hole by 7 µm: 14 µm of coaxiality, position and run-out, round and of its size.
+#[test]
+fn law_a_shaft_that_is_displaced() {
+    let asked = [
+        ("coaxiality", "shaft", "hole"),
+        ("position", "shaft", ""),
+        ("circular_run_out", "shaft", "hole"),
+        ("total_run_out", "shaft", "hole"),
+        ("roundness", "shaft", ""),
+        ("diameter", "shaft", ""),
+    ];
+    // Along a point of each section.
+    let off = Vec3::x() * 7e-3;
+    let found = values(&asked, "shaft", &|p| p.normal.dot(&off));
+    // e²/2R = 1.6 nm of second order.
+    close(&found, &[14e-3, 14e-3, 14e-3, 14e-3, 0.0, 0.0], 5e-6);
+}
+
+/// Material that is left makes a shaft larger and a hole smaller.
+#[test]
+fn law_left_material_makes_shafts_larger_and_holes_smaller() {
+    let asked =
+        [("diameter", "shaft", ""), ("diameter", "hole", ""), ("cylindricity", "shaft", "")];
+    close(&values(&asked, "shaft", &|_| 5e-3), &[10e-3, 0.0, 0.0], 1e-9);
+    close(&values(&asked, "hole", &|_| 5e-3), &[0.0, -10e-3, 0.0], 1e-9);
+}
+
+/// A hole whose axis leans by 100 µrad: 45 mm between its outermost sections make 4.5 µm across the base, as much along a shaft.
+#[test]
+fn law_a_hole_that_leans() {
+    let asked = [
+        ("perpendicularity", "hole", "base"),
+        ("parallelism", "hole", "shaft"),
+        ("roundness", "hole", ""),
+    ];
+    let leaning = |p: &SurfacePoint| p.normal.x * 1e-4 * p.point_mm.z;
+    close(&values(&asked, "hole", &leaning), &[4.5e-3, 4.5e-3, 0.0], 1e-6);
+}
+
+/// Three lobes of 4 µm are 8 µm out of round, not off their place; on a cone with a half angle of 45° the material along the normal is √2 as
+/// much in the section.
+#[test]
+fn law_lobes() {
+    let lobes = |p: &SurfacePoint| {
+        let angle = (p.point_mm.y - 5.0).atan2(p.point_mm.x - 10.0);
+        4e-3 * (3.0 * angle).cos()
+    };
+    let asked = [
+        ("roundness", "shaft", ""),
+        ("cylindricity", "shaft", ""),
+        ("position", "shaft", ""),
+        ("diameter", "shaft", ""),
+    ];
+    let spread = 1.0 - (1.5 * TAU / 24.0).cos();
+    let found = values(&asked, "shaft", &lobes);
+    // The points of a section may miss the lobes by half a step.
+    assert!(found[0] <= 8e-3 + 1e-6 && found[0] > 8e-3 * (1.0 - spread), "{found:?}");
+    assert!(found[1] <= 8e-3 + 1e-6 && found[1] > 8e-3 * (1.0 - spread), "{found:?}");
+    assert!(found[2] < 1e-6 && found[3].abs() < 1e-6, "{found:?}");
+    let cone = values(&[("roundness", "cone", "")], "cone", &lobes)[0];
+    let due = 8e-3 * 2_f64.sqrt();
+    assert!(cone <= due + 1e-6 && cone > due * (1.0 - spread), "{cone}");
+}
+
+/// A rigid motion of the whole part leaves form, orientation and size alone; it shifts what counts from the zero.
+#[test]
+fn law_a_rigid_motion_of_the_part_changes_places_only() {
+    let asked = [
+        ("flatness", "top", ""),
+        ("parallelism", "top", "base"),
+        ("perpendicularity", "hole", "base"),
+        ("coaxiality", "shaft", "hole"),
+        ("diameter", "hole", ""),
+        ("position", "hole", ""),
+    ];
+    let part = part(&asked);
+    let (shift, turn) = (Vec3::new(3e-3, -4e-3, 2e-3), Vec3::new(2e-5, -1e-5, 3e-5));
+    let moved = |p: &SurfacePoint| p.normal.dot(&(shift + turn.cross(&p.point_mm)));
+    let deviation_mm: Vec<f64> = part.features.iter().flat_map(|f| &f.points).map(moved).collect();
+    let found = part.evaluate(&deviation_mm).expect("values");
+    close(&found[..5], &[0.0; 5], 3e-6);
+    assert!(found[5] > 8e-3, "{found:?}");
+}
