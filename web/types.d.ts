@@ -9683,9 +9683,9 @@ export interface CharacteristicEntry {
    */
   feature: string;
   /**
-   * To which feature; null without a datum.
+   * To which features, the first datum first; empty: to the zero that was set.
    */
-  datum: string | null;
+  datums: string[];
   /**
    * Its value; of a size the deviation from the nominal one, mm.
    */
@@ -9741,7 +9741,7 @@ export interface FeatureEntry {
    */
   name: string;
   /**
-   * `plane`, `cylinder`, `cone`, `sphere` or `points`.
+   * `plane`, `cylinder`, `cone`, `sphere`, `points` or `programmed surface`.
    */
   shape: string;
   /**

@@ -19,3 +19,4 @@ test "$status" = 1
 status=0
 $trueaxis predict examples/03_predict/housing.toml --report "$out/housing.html" || status=$?
 test "$status" = 1
+$trueaxis predict examples/03_predict/blade.toml --report "$out/blade.html"

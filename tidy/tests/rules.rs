@@ -211,7 +211,7 @@ const CRATES: [(&str, &[&str]); 28] = [
     ("trueaxis-part", &["input", "form", "geometry"]),
     ("trueaxis-standards", &["input", "form", "geometry", "report"]),
     ("trueaxis-thermal", &["input", "geometry", "machine", "report"]),
-    ("trueaxis-motion", &["input", "geometry", "machine", "nc", "report"]),
+    ("trueaxis-motion", &["cut", "input", "geometry", "machine", "nc", "report"]),
     ("trueaxis-measure", &["input", "geometry", "machine", "motion", "report"]),
     ("trueaxis-condition", &["input", "geometry", "machine", "measure", "report", "standards"]),
     (

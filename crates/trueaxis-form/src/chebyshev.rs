@@ -50,7 +50,7 @@ impl Minimax {
     }
 }
 
-fn objective(criterion: Criterion, low: f64, high: f64) -> f64 {
+pub(crate) fn objective(criterion: Criterion, low: f64, high: f64) -> f64 {
     match criterion {
         Criterion::MinimumCircumscribed => high,
         Criterion::MaximumInscribed => -low,
@@ -92,7 +92,7 @@ impl Distances {
     }
 
     /// The linear problem in a box of this half width.
-    pub fn linear(&self, family: Family, criterion: Criterion, trust: f64) -> Option<Best> {
+    pub fn linear(&self, unknowns: usize, criterion: Criterion, trust: f64) -> Option<Best> {
         let (low, high) = self.range();
         let middle = match criterion {
             Criterion::MinimumCircumscribed => high,
@@ -100,7 +100,7 @@ impl Distances {
             _ => 0.5 * (low + high),
         };
         let values: Vec<f64> = self.values.iter().map(|v| (v - middle) / trust).collect();
-        let (unknowns, ends) = (family.unknowns(), ends(criterion));
+        let ends = ends(criterion);
         let problem = Linear { unknowns, values: &values, slopes: &self.slopes, ends };
         let mut best = problem.solve()?;
         best.step.iter_mut().for_each(|s| *s *= trust);
@@ -192,7 +192,7 @@ impl Search<'_> {
         let home = self.at.frame.origin;
         let mut here = self.distances(self.at);
         for _ in 0..MOST_STEPS {
-            let best = here.linear(self.family, self.criterion, trust)?;
+            let best = here.linear(self.family.unknowns(), self.criterion, trust)?;
             let before = self.size(&here);
             let predicted = before - best.objective(ends(self.criterion));
             if predicted <= ROUNDING || trust < 1e-14 {
@@ -235,7 +235,7 @@ impl Search<'_> {
     fn result(&self, here: &Distances) -> Minimax {
         const BOX: f64 = 1e-7;
         let (low, high) = here.range();
-        let best = here.linear(self.family, self.criterion, BOX);
+        let best = here.linear(self.family.unknowns(), self.criterion, BOX);
         let mut contacts = Vec::new();
         let mut slope = f64::INFINITY;
         if let Some(best) = best {
@@ -361,7 +361,7 @@ fn contact(row: Row, weight: f64) -> Option<Contact> {
 
 /// The contact points with their multipliers at a place that is known to be the best.
 pub(crate) fn contacts_of(here: &Distances, family: Family, criterion: Criterion) -> Vec<Contact> {
-    let best = here.linear(family, criterion, 1e-7);
+    let best = here.linear(family.unknowns(), criterion, 1e-7);
     let rows = best.map(|b| b.rows).unwrap_or_default();
     let mut found: Vec<Contact> =
         rows.iter().filter_map(|(row, weight)| contact(*row, *weight)).collect();

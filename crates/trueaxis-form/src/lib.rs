@@ -45,6 +45,7 @@ pub mod filter;
 mod fit;
 pub mod least_squares;
 mod linear;
+pub mod placed;
 mod profile;
 mod start;
 mod surface;

@@ -323,7 +323,7 @@ impl Drawn {
             Self::Contacts(criterion) => {
                 let values = here.values.iter().zip(&errors).map(|(v, e)| v + e).collect();
                 let noisy = Distances { values, slopes: here.slopes.clone() };
-                let best = noisy.linear(family, *criterion, 60.0 * u);
+                let best = noisy.linear(family.unknowns(), *criterion, 60.0 * u);
                 let (low, high) = noisy.range();
                 match (best, criterion) {
                     (None, _) if is_space_line => high,

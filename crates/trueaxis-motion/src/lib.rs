@@ -68,8 +68,8 @@ pub use recording::{
 };
 pub use series::{PathPoint, Quantity, Series};
 pub use setup::{
-    CONTROLS, LifeBy, MeasuredSize, Nearness, SetUp, SetUpTool, ToolLife, ToolSetter, ToolState,
-    control_named, parse_setup, read_setup,
+    CONTROLS, CutterShape, LifeBy, MeasuredSize, Nearness, SetUp, SetUpTool, ToolLife, ToolSetter,
+    ToolState, control_named, parse_setup, read_setup,
 };
 pub use summary::{AxisUse, Reversal, Summary, ToolUse, Worst, shown, unit};
 pub use table::{CsvTable, POSE_COLUMNS, headings};

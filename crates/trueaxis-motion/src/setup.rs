@@ -4,9 +4,11 @@
 //! assumed but zeros where it is silent.
 
 mod codes;
+mod cutter;
 mod setter;
 mod tool_state;
 
+pub use cutter::CutterShape;
 pub use setter::ToolSetter;
 pub use tool_state::{LifeBy, MeasuredSize, ToolLife, ToolState};
 
@@ -38,6 +40,8 @@ pub struct SetUpTool {
     pub corner_radius_mm: f64,
     /// Its cylinders from the tip upwards, the cutter first; empty: a cylinder of its diameter.
     pub shape: Vec<ToolSegment>,
+    /// The shape of its cutting part, if it is more than diameter and corner radius.
+    pub cutter: Option<CutterShape>,
     /// What is known of its wear and its life.
     pub state: ToolState,
 }
@@ -296,6 +300,7 @@ fn read_archive(root: &Section<'_>, item: &Item<'_>, folder: &Path, setup: &mut 
             corner_radius_mm: tool.corner_radius_mm,
             shape: Vec::new(),
             state: ToolState::default(),
+            cutter: None,
         });
     }
 }
@@ -407,6 +412,15 @@ fn read_tool(section: &Section<'_>, machine: &Machine) -> Option<SetUpTool> {
     tool.corner_radius_mm = corner.unwrap_or(tool.corner_radius_mm);
     if let Some(shape) = read_tool_shape(section) {
         tool.shape = shape;
+    }
+    tool.cutter = section.section("cutter", cutter::read_cutter).flatten();
+    if section.get("cutter").is_some()
+        && tool.diameter_mm.is_some()
+        && let Err(why) = tool.cutter()
+    {
+        let hint =
+            "cutter = { point = \"118 deg\" }, { side = \"5 deg\" }, { corner_at = \"4 10 mm\" }";
+        section.error("bad-tool", format!("the cutter: {why}"), hint);
     }
     tool.state = tool_state::read_state(section);
     Some(tool)

@@ -6,6 +6,7 @@
 //! ```
 
 mod characteristic;
+mod datum;
 mod feature;
 mod file;
 mod values;

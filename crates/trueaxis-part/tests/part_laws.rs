@@ -13,7 +13,8 @@ const FEATURES: &str = "name = \"p\"\n\
     [feature.wall]\nplane = { at = \"50 0 10 mm\", normal = \"1 0 0\", along = \"0 1 0\", size = \"60 20 mm\" }\nspacing = \"5 mm\"\n\
     [feature.hole]\nhole = { at = \"10 5 0 mm\", axis = \"0 0 1\", diameter = \"40 mm\", length = \"50 mm\" }\nspacing = \"5 mm\"\n\
     [feature.shaft]\ncylinder = { at = \"10 5 60 mm\", axis = \"0 0 1\", diameter = \"30 mm\", length = \"40 mm\" }\nspacing = \"5 mm\"\n\
-    [feature.cone]\ncone = { at = \"10 5 100 mm\", axis = \"0 0 1\", diameters = \"60 20 mm\", length = \"20 mm\" }\nspacing = \"5 mm\"\n";
+    [feature.cone]\ncone = { at = \"10 5 100 mm\", axis = \"0 0 1\", diameters = \"60 20 mm\", length = \"20 mm\" }\nspacing = \"5 mm\"\n\
+    [feature.slope]\ndatum = \"S\"\nplane = { at = \"0 -20 10 mm\", normal = \"0 -0.6 0.8\", along = \"1 0 0\", size = \"40 20 mm\" }\nspacing = \"5 mm\"\n";
 
 /// The part with characteristics.
 fn part(asked: &[(&str, &str, &str)]) -> Part {
@@ -172,4 +173,103 @@ fn law_a_rigid_motion_of_the_part_changes_places_only() {
     let found = part.evaluate(&deviation_mm).expect("values");
     close(&found[..5], &[0.0; 5], 3e-6);
     assert!(found[5] > 8e-3, "{found:?}");
+}
+
+/// A system of three datums holds all six degrees: a rigid motion of the whole part is nothing to it, whatever its order.
+#[test]
+fn law_a_datum_system_moves_with_the_part() {
+    let asked = [
+        ("position", "shaft", "base|wall|hole"),
+        ("position", "shaft", "hole|base|wall"),
+        ("position", "top", "wall|base|hole"),
+        ("profile", "cone", "base|hole|wall"),
+        ("profile", "slope", "base|wall|hole"),
+        ("perpendicularity", "wall", "base|hole"),
+        ("angularity", "slope", "base|wall"),
+    ];
+    let part = part(&asked);
+    let (shift, turn) = (Vec3::new(3e-3, -4e-3, 2e-3), Vec3::new(2e-5, -1e-5, 3e-5));
+    let moved = |p: &SurfacePoint| p.normal.dot(&(shift + turn.cross(&p.point_mm)));
+    let deviation_mm: Vec<f64> = part.features.iter().flat_map(|f| &f.points).map(moved).collect();
+    close(&part.evaluate(&deviation_mm).expect("values"), &[0.0; 7], 6e-6);
+}
+
+/// The wall leans by 200 µrad about Z: as the second datum it turns the frame, and the axis of the shaft, 5 mm off the middle of the wall, is
+/// 1 µm nearer to it. As the third it only shifts: its outermost row, 27.5 mm off, is 5.5 µm out.
+#[test]
+fn law_the_second_datum_turns_and_the_third_shifts() {
+    let leaning = |p: &SurfacePoint| 2e-4 * p.point_mm.y;
+    let found = values(&[("position", "shaft", "base|wall|hole")], "wall", &leaning);
+    // The points of the hole, 13.8° apart, let its circle slip by some 0.1 µm.
+    close(&found, &[2e-3], 2e-5);
+    // A hole along the normal of the first leaves a turn about its axis: the wall holds it, without a shift; the shaft is on that axis.
+    let found = values(&[("position", "shaft", "base|hole|wall")], "wall", &leaning);
+    close(&found, &[0.0], 1e-6);
+    // As the first it leans all of the frame: a top that is parallel to Y does not see it.
+    let found = values(&[("perpendicularity", "top", "wall|base")], "wall", &leaning);
+    close(&found, &[0.0], 1e-6);
+}
+
+/// A bump of 10 µm in a hole pushes the largest inscribed cylinder aside by half of it; the smallest circumscribed one would not see it. On a
+/// shaft the same the other way round.
+#[test]
+fn law_a_bump_moves_the_datum_by_half_of_it() {
+    let at_x =
+        |p: &SurfacePoint| if p.normal.x.abs() > 0.999 && p.point_mm.x > 10.0 { 1e-2 } else { 0.0 };
+    let asked = [("coaxiality", "shaft", "hole"), ("position", "shaft", "base|hole|wall")];
+    // Points stand 13.8° apart: the circle slips aside between the two that hold it.
+    close(&values(&asked, "hole", &at_x), &[1e-2; 2], 2e-4);
+    let asked = [("coaxiality", "hole", "shaft"), ("position", "hole", "base|shaft|wall")];
+    close(&values(&asked, "shaft", &at_x), &[1e-2; 2], 2e-4);
+}
+
+/// A plane at an angle: about the normal of its datum the zone may turn, across it not; a second datum holds the turn.
+#[test]
+fn law_angularity_turns_about_its_datum_only() {
+    let asked = [("angularity", "slope", "base"), ("angularity", "slope", "base|wall")];
+    let about_z = |p: &SurfacePoint| 1e-4 * p.point_mm.x;
+    // 35 mm between the outermost rows.
+    close(&values(&asked, "slope", &about_z), &[0.0, 3.5e-3], 1e-6);
+    let slope = |p: &SurfacePoint| {
+        1e-4 * (p.point_mm - Vec3::new(0.0, -20.0, 10.0)).dot(&Vec3::new(0.0, 0.8, 0.6))
+    };
+    close(&values(&asked, "slope", &slope), &[1.5e-3; 2], 1e-6);
+}
+
+/// A bow of a shaft by 4 µm is its straightness, and of a face its total run-out along the axis.
+#[test]
+fn law_straightness_and_the_run_out_of_a_face() {
+    let bow = |p: &SurfacePoint| p.normal.x * 4e-3 * ((p.point_mm.z - 80.0) / 17.5).powi(2);
+    let found = values(&[("straightness", "shaft", "")], "shaft", &bow);
+    assert!((found[0] - 4e-3).abs() < 0.1e-3, "{found:?}");
+    let leaning = |p: &SurfacePoint| 1e-4 * p.point_mm.x;
+    close(&values(&[("total_run_out", "top", "hole")], "top", &leaning), &[9e-3], 1e-9);
+}
+
+/// What a reader says of datums that hold nothing, leave what matters free, or stand at another angle.
+#[test]
+fn datums_that_do_not_do_are_refused_by_name() {
+    let refused = |asked: (&str, &str, &str), code: &str| {
+        let (kind, of, datum) = asked;
+        let text = format!(
+            "{FEATURES}[[characteristic]]\n{kind} = \"20 um\"\nof = \"{of}\"\ndatum = \"{datum}\"\n"
+        );
+        let source = SourceText::from(&Files::none(), "p.toml", &text);
+        assert!(source.read(|root| Part::read(root, Path::new(""))).is_none(), "{asked:?}");
+        let problems = source.finish();
+        assert!(problems.iter().any(|p| p.code == code), "{asked:?}: {problems:?}");
+    };
+    refused(("position", "shaft", "base|top|wall"), "idle-datum");
+    refused(("position", "shaft", "base|wall"), "free-degree");
+    refused(("position", "shaft", "base"), "free-degree");
+    refused(("position", "shaft", "base|wall|wall"), "bad-datum");
+    refused(("position", "shaft", "base|wall|shaft"), "wrong-feature");
+    refused(("position", "shaft", "base|nothing|hole"), "unknown-feature");
+    refused(("position", "shaft", "base|wall|hole|top"), "bad-datum");
+    refused(("position", "shaft", "base|wall (M)|hole"), "material-condition");
+    refused(("position", "shaft", "base|cone|wall"), "wrong-feature");
+    refused(("perpendicularity", "top", "base"), "wrong-angle");
+    refused(("parallelism", "slope", "base"), "wrong-angle");
+    refused(("flatness", "top", "base"), "wrong-feature");
+    refused(("total_run_out", "shaft", "hole|base"), "bad-datum");
 }

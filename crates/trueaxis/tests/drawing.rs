@@ -263,3 +263,93 @@ fn the_housing_is_judged() {
     assert_eq!(found.values.len(), study.part.characteristics.len());
     assert!(found.values.iter().all(|v| v.value_mm.is_finite() && v.u_mm > 0.0));
 }
+
+/// Two tools by turns, the second one 10 mm longer: every block is that of its move, whichever tool came before.
+#[test]
+fn law_blocks_are_named_with_tools_by_turns() {
+    let set_up = SET_UP.to_owned()
+        + "[tool.2]\nname = \"end mill 12 long\"\nlength = \"100 mm\"\ndiameter = \"12 mm\"\n";
+    // The front in three stretches, tools 1, 2 and 1, cut by lines 9, 15 and 21; where a tool plunges its plunge comes first.
+    let program = "%\nO1\nG21 G17 G40 G80 G90 G94\nT1 M6\nG54 S8000 M3\nG43 Z50. H1\nG0 X66. Y-46.\nG1 Z-21. F900\nG1 X20.\nG0 Z50.\n\
+        T2 M6\nG43 Z50. H2\nG0 X20. Y-46.\nG1 Z-21. F900\nG1 X-20.\nG0 Z50.\nT1 M6\nG43 Z50. H1\nG0 X-20. Y-46.\nG1 Z-21. F900\nG1 X-66.\n\
+        G0 Z50.\nM30\n%\n";
+    let part = "name = \"p\"\n[feature.front]\nplane = { at = \"0 -40 -10 mm\", normal = \"0 -1 0\", along = \"1 0 0\", size = \"100 16 mm\" }\n\
+        spacing = \"4 mm\"\n[[characteristic]]\nflatness = \"10 um\"\nof = \"front\"\n";
+    let found = predicted(&[("p.setup.toml", &set_up), ("p.nc", program), ("p.toml", part)]);
+    for point in &found.features[0].points {
+        let expected = match point.nominal_mm.x {
+            x if x > 21.0 => (1, 9),
+            x if x < -21.0 => (1, 21),
+            x if x.abs() < 19.0 => (2, 15),
+            _ => continue,
+        };
+        assert_eq!((point.origin.tool, point.origin.line), expected, "{}", point.nominal_mm);
+    }
+}
+
+/// ISO 14253-1: a value within U of its limit is neither, above it by more it fails, below it by more it passes.
+#[test]
+fn law_the_guard_band_has_two_sides() {
+    use trueaxis::part::tolerance::Outcome;
+    // 6.5 ± 0.65 µm, U = 1.3 µm.
+    let machine = mill("EC0Y = \"100 ± 10 urad\"");
+    let study = STUDY.to_owned() + "[decision]\nrule = \"ISO 14253-1\"\n";
+    let outcome = |tolerance: &str| {
+        let part = PART.replace(
+            "perpendicularity = \"10 um\"",
+            &format!("perpendicularity = \"{tolerance}\""),
+        );
+        predicted(&[("m.toml", &machine), ("s.toml", &study), ("p.toml", &part)]).values[2].outcome
+    };
+    assert_eq!(outcome("7.9 um"), Outcome::Pass);
+    assert_eq!(outcome("7.7 um"), Outcome::Undecided);
+    assert_eq!(outcome("5.3 um"), Outcome::Undecided);
+    assert_eq!(outcome("5.1 um"), Outcome::Fail);
+}
+
+/// A surface that the program makes, seen through a rectangle: nought on a machine without errors, and what an error displaces it by on another.
+#[test]
+fn law_a_surface_of_the_program() {
+    let part = "name = \"p\"\n[feature.side]\nprogrammed = { at = \"64 0 -10 mm\", normal = \"1 0 0\", along = \"0 1 0\", size = \"60 16 mm\", depth = \"8 mm\" }\n\
+        spacing = \"5 mm\"\n[[characteristic]]\nprofile = \"10 um\"\nof = \"side\"\n";
+    let none = predicted(&[("p.toml", part)]);
+    assert_eq!(none.features[0].points.len(), 12 * 4);
+    assert!(none.features[0].points.iter().all(|p| (p.nominal_mm.x - 60.0).abs() < 1e-9));
+    assert!(values(&none)[0] < 1e-9, "{:?}", values(&none));
+    let machine = mill("EC0Y = \"100 urad\"");
+    let found = predicted(&[("p.toml", part), ("m.toml", &machine)]);
+    // The outermost points are 27.5 mm away from the zero.
+    assert!((values(&found)[0] - 2.0 * 2.75e-3).abs() < 2e-5, "{:?}", values(&found));
+    // Where no tool comes there is no surface.
+    let beside = part.replace("64 0 -10", "-40 0 -10");
+    let study = study(&[("p.toml", &beside)]).expect("a study");
+    let mut problems = Diagnostics::new();
+    assert!(predict_part(&study, &mut problems).is_none());
+    assert!(problems.iter().any(|p| p.code == "not-cut"), "{:?}", words(&problems));
+}
+
+/// A drill of 90° leaves a cone of 90°, a cutter whose side stands at 45° a chamfer, whatever their diameters say about a flat end.
+#[test]
+fn law_drills_and_tapers_leave_their_shapes() {
+    let tools = SET_UP.to_owned()
+        + "cutter = { point = \"90 deg\" }\n[tool.2]\nname = \"taper 45\"\nlength = \"100 mm\"\ndiameter = \"4 mm\"\n\
+           cutter = { side = \"45 deg\", height = \"6 mm\" }\n";
+    let program = "%\nO1\nG21 G17 G40 G80 G90 G94\nT1 M6\nG54 S8000 M3\nG43 Z20. H1\nG0 X0. Y0.\nG1 Z-5. F500\nG0 Z50.\n\
+        T2 M6\nG43 Z50. H2\nG0 X66. Y60.\nG1 Z-6. F500\nY-60.\nG0 Z50.\nM30\n%\n";
+    let part = "name = \"p\"\n[feature.countersink]\nconical_hole = { at = \"0 0 -1 mm\", axis = \"0 0 -1\", diameters = \"8 2 mm\", length = \"3 mm\" }\n\
+        [feature.chamfer]\nplane = { at = \"61 0 -3 mm\", normal = \"1 0 1\", along = \"0 1 0\", size = \"60 4 mm\" }\n\
+        [[characteristic]]\nprofile = \"10 um\"\nof = \"countersink\"\n[[characteristic]]\nprofile = \"10 um\"\nof = \"chamfer\"\n";
+    let found = predicted(&[("p.setup.toml", &tools), ("p.nc", program), ("p.toml", part)]);
+    assert!(values(&found).iter().all(|v| *v < 1e-6), "{:?}", values(&found));
+    // Both angles of the end, a corner that does not fit.
+    for wrong in ["point = \"90 deg\", bottom = \"45 deg\"", "corner_at = \"1 9 mm\""] {
+        let tools = tools.replace("point = \"90 deg\"", wrong);
+        let problems = study(&[("p.setup.toml", &tools), ("p.nc", program), ("p.toml", part)]);
+        let problems = problems.err().unwrap_or_else(|| panic!("{wrong}"));
+        assert!(
+            problems.iter().any(|p| p.code == "bad-tool" || p.code == "contradiction"),
+            "{:?}",
+            words(&problems)
+        );
+    }
+}

@@ -5,6 +5,8 @@
 pub enum Kind {
     /// Of a plane: the distance of two parallel planes around all points.
     Flatness,
+    /// Of the axis of a cylinder or cone: the smallest cylinder around its median line.
+    Straightness,
     /// Of a cylinder or cone: the largest of its sections.
     Roundness,
     /// Of a cylinder.
@@ -13,6 +15,8 @@ pub enum Kind {
     Diameter,
     /// Of any surface: the width of the zone about the nominal surface that holds all of it.
     Profile,
+    /// Of a plane or an axis to datums, at the angle of the nominal part.
+    Angularity,
     /// Of a plane or an axis to a datum.
     Parallelism,
     /// Of a plane or an axis to a datum.
@@ -23,7 +27,7 @@ pub enum Kind {
     Coaxiality,
     /// Of the sections of a cylinder or cone about a datum axis: the largest range.
     CircularRunOut,
-    /// The same of all sections of a cylinder together.
+    /// The same of all sections of a cylinder together; of a plane across the axis along it.
     TotalRunOut,
 }
 
@@ -53,20 +57,22 @@ pub struct Characteristic {
     pub kind: Kind,
     /// Of which feature.
     pub feature: usize,
-    /// To which one.
-    pub datum: Option<usize>,
+    /// To which ones, the first of them first; none: to the zero that was set.
+    pub datums: Vec<usize>,
     /// What is allowed.
     pub limits: Limits,
 }
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 13] = [
         Self::Flatness,
+        Self::Straightness,
         Self::Roundness,
         Self::Cylindricity,
         Self::Diameter,
         Self::Profile,
+        Self::Angularity,
         Self::Parallelism,
         Self::Perpendicularity,
         Self::Position,
@@ -79,10 +85,12 @@ impl Kind {
     pub fn key(self) -> &'static str {
         match self {
             Self::Flatness => "flatness",
+            Self::Straightness => "straightness",
             Self::Roundness => "roundness",
             Self::Cylindricity => "cylindricity",
             Self::Diameter => "diameter",
             Self::Profile => "profile",
+            Self::Angularity => "angularity",
             Self::Parallelism => "parallelism",
             Self::Perpendicularity => "perpendicularity",
             Self::Position => "position",
@@ -107,10 +115,26 @@ impl Kind {
             self,
             Self::Parallelism
                 | Self::Perpendicularity
+                | Self::Angularity
                 | Self::Coaxiality
                 | Self::CircularRunOut
                 | Self::TotalRunOut
         )
+    }
+
+    /// Whether it is of the form or the size of a feature alone.
+    pub fn is_alone(self) -> bool {
+        !self.needs_datum() && !self.is_located()
+    }
+
+    /// Whether its zone has a place: the datums, or the zero that was set, fix all that would move it.
+    pub fn is_located(self) -> bool {
+        matches!(self, Self::Profile | Self::Position)
+    }
+
+    /// Whether its zone has a direction only.
+    pub fn is_oriented(self) -> bool {
+        matches!(self, Self::Parallelism | Self::Perpendicularity | Self::Angularity)
     }
 }
 

@@ -62,6 +62,19 @@ pub enum Geometry {
     },
     /// A table of points with their normals.
     Points,
+    /// What the program leaves on a machine without errors, seen through a rectangle; its points are found by the nominal cut.
+    Programmed {
+        /// The middle of the rectangle.
+        at_mm: Vec3,
+        /// Towards the eye, a unit vector.
+        normal: Vec3,
+        /// Along its first edge, a unit vector.
+        along: Vec3,
+        /// Lengths of its edges.
+        size_mm: [f64; 2],
+        /// How far beyond the rectangle is looked.
+        depth_mm: f64,
+    },
 }
 
 /// A feature of a part.
@@ -69,6 +82,8 @@ pub enum Geometry {
 pub struct Feature {
     /// Its name.
     pub name: String,
+    /// The letter that it has as a datum.
+    pub letter: Option<String>,
     /// Its nominal shape.
     pub geometry: Geometry,
     /// Points on it with the normals out of the material.
@@ -81,6 +96,13 @@ pub struct Feature {
     pub above_mm: f64,
 }
 
+impl Feature {
+    /// Its letter as a datum, else its name.
+    pub fn label(&self) -> &str {
+        self.letter.as_deref().unwrap_or(&self.name)
+    }
+}
+
 impl Geometry {
     /// In words.
     pub fn name(&self) -> &'static str {
@@ -90,6 +112,7 @@ impl Geometry {
             Self::Cone { .. } => "cone",
             Self::Sphere { .. } => "sphere",
             Self::Points => "points",
+            Self::Programmed { .. } => "programmed surface",
         }
     }
 
@@ -99,7 +122,46 @@ impl Geometry {
             Self::Cylinder { at_mm, axis, .. } | Self::Cone { at_mm, axis, .. } => {
                 Some((at_mm, axis))
             }
-            Self::Plane { .. } | Self::Sphere { .. } | Self::Points => None,
+            _ => None,
+        }
+    }
+
+    /// The normal of a plane, the direction of an axis.
+    pub(super) fn direction(&self) -> Option<Vec3> {
+        match *self {
+            Self::Plane { normal, .. } => Some(normal),
+            _ => self.axis().map(|(_, axis)| axis),
+        }
+    }
+
+    /// How far a point is outside of the material, and the direction in which that grows; none of a table of points.
+    pub(super) fn outside(&self, point_mm: &Vec3) -> Option<(f64, Vec3)> {
+        let sign = |is_hole: bool| if is_hole { -1.0 } else { 1.0 };
+        let unit = |v: Vec3| v / v.norm().max(f64::MIN_POSITIVE);
+        match *self {
+            Self::Plane { at_mm, normal, .. } => Some((normal.dot(&(point_mm - at_mm)), normal)),
+            Self::Cylinder { at_mm, axis, radius_mm, is_hole, .. } => {
+                let arm = point_mm - at_mm;
+                let out = arm - axis * arm.dot(&axis);
+                let sign = sign(is_hole);
+                Some((sign * (out.norm() - radius_mm), unit(out) * sign))
+            }
+            Self::Cone { at_mm, axis, radii_mm, length_mm, is_hole } => {
+                let arm = point_mm - at_mm;
+                let height = arm.dot(&axis);
+                let out = arm - axis * height;
+                let rise = radii_mm[1] - radii_mm[0];
+                let normal = (unit(out) * length_mm - axis * rise) / length_mm.hypot(rise);
+                let radial = out.norm() - radii_mm[0] - rise * height / length_mm;
+                let sign = sign(is_hole);
+                Some((sign * radial * length_mm / length_mm.hypot(rise), normal * sign))
+            }
+            Self::Sphere { at_mm, radius_mm, is_hole, .. } => {
+                let arm = point_mm - at_mm;
+                let sign = sign(is_hole);
+                Some((sign * (arm.norm() - radius_mm), unit(arm) * sign))
+            }
+            Self::Points | Self::Programmed { .. } => None,
         }
     }
 
@@ -133,7 +195,8 @@ impl Geometry {
 
     fn rows(&self, spacing_mm: f64) -> Vec<Row> {
         match *self {
-            Self::Plane { at_mm, normal, along, size_mm } => {
+            Self::Plane { at_mm, normal, along, size_mm }
+            | Self::Programmed { at_mm, normal, along, size_mm, .. } => {
                 let across = normal.cross(&along);
                 let counts = size_mm.map(|size| steps(size, spacing_mm));
                 let offset =

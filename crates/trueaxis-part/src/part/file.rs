@@ -1,7 +1,10 @@
 //! The part file.
 
+mod characteristics;
+
 use super::feature::MOST_POINTS;
-use super::{Characteristic, Feature, Geometry, Kind, Limits, Part};
+use super::{Characteristic, Feature, Geometry, Part};
+use characteristics::read_characteristic;
 use std::f64::consts::PI;
 use std::path::Path;
 use trueaxis_geometry::Vec3;
@@ -10,6 +13,8 @@ use trueaxis_input::{CsvTable, Diagnostics, Dimension, Files, Item, Place, Secti
 
 /// How far into and out of the material a feature is checked, unless it says so.
 const REACH_MM: f64 = 1.0;
+/// The same for a surface of the program: between neighbouring tracks of the tool it is rough.
+const PROGRAMMED_MM: f64 = 0.1;
 
 impl Part {
     /// A part file by its path.
@@ -57,8 +62,17 @@ impl Part {
 }
 
 fn read_feature(section: &Section<'_>, name: &str, folder: &Path) -> Option<Feature> {
-    let kinds =
-        ["plane", "cylinder", "hole", "cone", "conical_hole", "sphere", "hollow_sphere", "points"];
+    let kinds = [
+        "plane",
+        "cylinder",
+        "hole",
+        "cone",
+        "conical_hole",
+        "sphere",
+        "hollow_sphere",
+        "points",
+        "programmed",
+    ];
     let stated: Vec<(&str, Item<'_>)> =
         kinds.iter().filter_map(|kind| section.get(kind).map(|item| (*kind, item))).collect();
     let [(kind, item)] = stated[..] else {
@@ -66,14 +80,17 @@ fn read_feature(section: &Section<'_>, name: &str, folder: &Path) -> Option<Feat
         section.error("one-shape", message, &format!("one of {}", kinds.join(", ")));
         return None;
     };
+    let letter = section.text("datum").map(str::to_owned);
     let spacing = section.get("spacing").map(|item| positive(&item, "spacing"));
+    let usual_mm = if kind == "programmed" { PROGRAMMED_MM } else { REACH_MM };
     let reach = ["below", "above"]
-        .map(|key| section.get(key).map_or(Some(REACH_MM), |item| positive(&item, key)));
+        .map(|key| section.get(key).map_or(Some(usual_mm), |item| positive(&item, key)));
     if kind == "points" {
         let points = item.text().and_then(|file| read_points(section, &folder.join(file)));
         let [below_mm, above_mm] = reach;
         return Some(Feature {
             name: name.to_owned(),
+            letter,
             geometry: Geometry::Points,
             points: points?,
             sections: Vec::new(),
@@ -104,6 +121,7 @@ fn read_feature(section: &Section<'_>, name: &str, folder: &Path) -> Option<Feat
     let [below_mm, above_mm] = reach;
     Some(Feature {
         name: name.to_owned(),
+        letter,
         geometry,
         points,
         sections,
@@ -173,6 +191,7 @@ fn usual_spacing(geometry: &Geometry) -> f64 {
             (PI * radii_mm[0].max(radii_mm[1]) / 18.0).min(0.2 * length_mm)
         }
         Geometry::Sphere { radius_mm, opening_rad, .. } => 0.1 * radius_mm * opening_rad,
+        Geometry::Programmed { size_mm, .. } => 0.025 * size_mm[0].max(size_mm[1]),
         Geometry::Points => 1.0,
     }
 }
@@ -190,40 +209,14 @@ fn read_geometry(section: &Section<'_>, kind: &str) -> Option<Geometry> {
     let axis_hint = "along the axis from `at` on: axis = \"0 0 1\"";
     match kind {
         "plane" => {
-            let normal = unit("normal", "out of the material: normal = \"0 0 1\"");
-            let along = match section.get("along") {
-                Some(item) => item.direction().map(Vec3::from).map(Some),
-                None => Some(None),
-            };
-            let size = section
-                .require("size", "along its edges: size = \"80 60 mm\"")
-                .and_then(|i| i.lengths::<2>());
-            let (normal, along, size_mm) = (normal?, along?, size?);
-            if size_mm.iter().any(|s| *s <= 0.0) {
-                section.error(
-                    "not-positive",
-                    "`size` must be positive".into(),
-                    "two lengths of edges",
-                );
-                return None;
-            }
-            let along = match along {
-                None => super::feature::across(&normal)[0],
-                Some(along) => {
-                    let within = along - normal * normal.dot(&along);
-                    if within.norm() < 0.9 {
-                        let message = "`along` does not lie in the plane".to_owned();
-                        section.error(
-                            "bad-direction",
-                            message,
-                            "a direction at right angles to `normal`",
-                        );
-                        return None;
-                    }
-                    within.normalize()
-                }
-            };
+            let (normal, along, size_mm) = read_rectangle(section, "out of the material")?;
             Some(Geometry::Plane { at_mm: at_mm?, normal, along, size_mm })
+        }
+        "programmed" => {
+            let depth = size("depth", "how far beyond the rectangle: depth = \"20 mm\"");
+            let (normal, along, size_mm) = read_rectangle(section, "towards the eye")?;
+            let depth_mm = depth?;
+            Some(Geometry::Programmed { at_mm: at_mm?, normal, along, size_mm, depth_mm })
         }
         "cylinder" | "hole" => {
             let axis = unit("axis", axis_hint);
@@ -275,6 +268,39 @@ fn read_geometry(section: &Section<'_>, kind: &str) -> Option<Geometry> {
             Some(Geometry::Sphere { at_mm: at_mm?, axis: axis?, radius_mm, opening_rad, is_hole })
         }
     }
+}
+
+/// `normal`, `along` and `size`.
+fn read_rectangle(section: &Section<'_>, is: &str) -> Option<(Vec3, Vec3, [f64; 2])> {
+    let normal = section
+        .require("normal", &format!("{is}: normal = \"0 0 1\""))
+        .and_then(|i| i.direction())
+        .map(Vec3::from);
+    let along = match section.get("along") {
+        Some(item) => item.direction().map(Vec3::from).map(Some),
+        None => Some(None),
+    };
+    let hint = "along its edges: size = \"80 60 mm\"";
+    let size = section.require("size", hint).and_then(|i| i.lengths::<2>());
+    let (normal, along, size_mm) = (normal?, along?, size?);
+    if size_mm.iter().any(|s| *s <= 0.0) {
+        section.error("not-positive", "`size` must be positive".into(), "two lengths of edges");
+        return None;
+    }
+    let along = match along {
+        None => super::feature::across(&normal)[0],
+        Some(along) => {
+            let within = along - normal * normal.dot(&along);
+            if within.norm() < 0.9 {
+                let message = "`along` does not lie in the plane".to_owned();
+                let hint = "a direction at right angles to `normal`";
+                section.error("bad-direction", message, hint);
+                return None;
+            }
+            within.normalize()
+        }
+    };
+    Some((normal, along, size_mm))
 }
 
 fn positive(item: &Item<'_>, key: &str) -> Option<f64> {
@@ -333,147 +359,4 @@ fn points_of(table: &CsvTable, problems: &mut Diagnostics) -> Option<Vec<Surface
         Some(SurfacePoint { point_mm: Vec3::new(x, y, z), normal, axis: normal, line })
     };
     (0..table.rows()).map(&mut point).collect()
-}
-
-fn read_characteristic(
-    section: &Section<'_>,
-    features: &[Feature],
-    complete: bool,
-) -> Option<Characteristic> {
-    let stated: Vec<(Kind, Item<'_>)> = Kind::ALL
-        .into_iter()
-        .filter_map(|kind| section.get(kind.key()).map(|i| (kind, i)))
-        .collect();
-    for word in ["maximum_material", "least_material", "envelope", "projected"] {
-        if section.get(word).is_some() {
-            let message = format!("`{word}`: zones with material conditions are not judged");
-            section.error(
-                "material-condition",
-                message,
-                "leave it out and judge the zone without it",
-            );
-        }
-    }
-    let named = |key: &str, item: Option<Item<'_>>| {
-        let word = item?.text()?;
-        let found = features.iter().position(|f| f.name == word);
-        // A feature with a mistake of its own is not called unknown.
-        if found.is_none() && complete {
-            let known: Vec<&str> = features.iter().map(|f| f.name.as_str()).collect();
-            let message = format!("`{key}`: the part has no feature `{word}`");
-            section.error(
-                "unknown-feature",
-                message,
-                &format!("its features: {}", known.join(", ")),
-            );
-        }
-        found
-    };
-    let feature = named("of", section.require("of", "the name of a feature: of = \"top\""));
-    let datum = section.get("datum").map(|item| named("datum", Some(item)));
-    let name = section.text("name").map(str::to_owned);
-    let [(kind, item)] = stated[..] else {
-        let known: Vec<&str> = Kind::ALL.iter().map(|k| k.key()).collect();
-        let message = format!("{} characteristics are stated, expected one", stated.len());
-        section.error("one-characteristic", message, &format!("one of {}", known.join(", ")));
-        return None;
-    };
-    let limits = read_limits(&item, kind);
-    let feature = feature?;
-    let datum = match datum {
-        Some(found) => Some(found?),
-        None => None,
-    };
-    let of = &features[feature];
-    check(section, kind, of, datum.map(|d| &features[d]))?;
-    let name = name.unwrap_or_else(|| match datum {
-        Some(datum) => format!("{} of {} to {}", kind.name(), of.name, features[datum].name),
-        None => format!("{} of {}", kind.name(), of.name),
-    });
-    Some(Characteristic { name, kind, feature, datum, limits: limits? })
-}
-
-/// `"20 um"`, for a size `"±20 um"` or `["-10 um", "25 um"]`.
-fn read_limits(item: &Item<'_>, kind: Kind) -> Option<Limits> {
-    if kind != Kind::Diameter {
-        return positive(item, kind.key()).map(|tolerance_mm| Limits::Zone { tolerance_mm });
-    }
-    let limits = match item.is_list() {
-        true => {
-            let list = item.list()?;
-            let both: Vec<Option<f64>> =
-                list.iter().map(|i| i.quantity(Dimension::Length)).collect();
-            match both[..] {
-                [Some(low_mm), Some(high_mm)] => Some((low_mm, high_mm)),
-                _ => None,
-            }
-        }
-        false => item.quantity(Dimension::Length).map(|v| (-v, v)),
-    };
-    match limits {
-        Some((low_mm, high_mm)) if low_mm < high_mm => Some(Limits::Size { low_mm, high_mm }),
-        _ => {
-            let hint = "\"20 um\" for either way, or [\"-10 um\", \"25 um\"]";
-            item.error(
-                "bad-limits",
-                "limits of a size are a lower and an upper deviation".into(),
-                hint,
-            );
-            None
-        }
-    }
-}
-
-/// What a kind asks of its feature and its datum.
-fn check(section: &Section<'_>, kind: Kind, of: &Feature, datum: Option<&Feature>) -> Option<()> {
-    let refuse = |message: String, hint: &str| {
-        section.error("wrong-feature", message, hint);
-        None
-    };
-    let shape = |feature: &Feature| feature.geometry.name();
-    let fits = match kind {
-        Kind::Flatness => matches!(of.geometry, Geometry::Plane { .. }),
-        Kind::Roundness | Kind::Coaxiality => of.geometry.axis().is_some(),
-        Kind::Cylindricity | Kind::Diameter | Kind::CircularRunOut | Kind::TotalRunOut => {
-            matches!(of.geometry, Geometry::Cylinder { .. })
-        }
-        Kind::Profile => true,
-        Kind::Parallelism | Kind::Perpendicularity | Kind::Position => {
-            matches!(of.geometry, Geometry::Plane { .. }) || of.geometry.axis().is_some()
-        }
-    };
-    if !fits {
-        let message = format!("{} is not asked of a {}: `{}`", kind.name(), shape(of), of.name);
-        return refuse(message, "choose another feature or another characteristic");
-    }
-    match (kind.needs_datum(), datum) {
-        (true, None) => {
-            let message = format!("{} needs a datum", kind.name());
-            refuse(message, "datum = \"NAME\" of another feature")
-        }
-        (false, Some(datum)) => {
-            let message = format!("{} with the datum `{}` is not judged", kind.name(), datum.name);
-            let hint = "profile and position count from the zero that was set; leave `datum` out";
-            refuse(message, hint)
-        }
-        (true, Some(datum)) if std::ptr::eq(datum, of) => {
-            refuse(format!("`{}` is its own datum", of.name), "name another feature")
-        }
-        (true, Some(datum)) => {
-            let needs_axis =
-                matches!(kind, Kind::Coaxiality | Kind::CircularRunOut | Kind::TotalRunOut);
-            let good = match datum.geometry {
-                Geometry::Plane { .. } => !needs_axis,
-                Geometry::Cylinder { .. } => true,
-                Geometry::Cone { .. } | Geometry::Sphere { .. } | Geometry::Points => false,
-            };
-            if good {
-                return Some(());
-            }
-            let message =
-                format!("a {} is no datum of {}: `{}`", shape(datum), kind.name(), datum.name);
-            refuse(message, "a cylinder or a hole, for directions a plane, too")
-        }
-        (false, None) => Some(()),
-    }
 }

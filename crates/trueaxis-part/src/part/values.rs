@@ -1,18 +1,21 @@
 //! From the cut surface to the values of the characteristics.
 
+use super::datum::{DatumFrame, all_degrees, held};
 use super::feature::across;
 use super::{Characteristic, Feature, Geometry, Kind, Part};
 use crate::Error;
 use std::ops::Range;
 use trueaxis_form::circle::Fitter;
+use trueaxis_form::placed::place;
 use trueaxis_form::{Criterion, Element, Known, Reference, Shape, fit_by};
 use trueaxis_geometry::Vec3;
+use trueaxis_geometry::surface::SurfacePoint;
 
 /// Places of a feature.
-struct Surface<'a> {
-    feature: &'a Feature,
+pub(super) struct Surface<'a> {
+    pub feature: &'a Feature,
     deviation_mm: &'a [f64],
-    places_mm: Vec<Vec3>,
+    pub places_mm: Vec<Vec3>,
 }
 
 /// Sections across an axis, in coordinates of their planes.
@@ -48,32 +51,70 @@ impl Part {
                 Surface { feature, deviation_mm, places_mm }
             })
             .collect();
-        self.characteristics.iter().map(|asked| value(asked, &surfaces)).collect()
+        let mut systems = Systems { features: &self.features, found: Vec::new() };
+        self.characteristics.iter().map(|asked| value(asked, &surfaces, &mut systems)).collect()
     }
 }
 
-fn value(asked: &Characteristic, surfaces: &[Surface<'_>]) -> Result<f64, Error> {
+/// Datum systems of a part, each found once.
+struct Systems<'p> {
+    features: &'p [Feature],
+    found: Vec<(&'p [usize], DatumFrame)>,
+}
+
+impl<'p> Systems<'p> {
+    fn frame(
+        &mut self,
+        surfaces: &[Surface<'_>],
+        datums: &'p [usize],
+    ) -> Result<DatumFrame, Error> {
+        if let Some((_, frame)) = self.found.iter().find(|(of, _)| *of == datums) {
+            return Ok(frame.clone());
+        }
+        let frame = DatumFrame::on(surfaces, datums, all_degrees(self.features))?;
+        self.found.push((datums, frame.clone()));
+        Ok(frame)
+    }
+}
+
+fn value<'p>(
+    asked: &'p Characteristic,
+    surfaces: &[Surface<'_>],
+    systems: &mut Systems<'p>,
+) -> Result<f64, Error> {
     let surface = &surfaces[asked.feature];
-    let datum = || {
-        let datum =
-            asked.datum.ok_or_else(|| unfit("a characteristic without the datum that it needs"))?;
-        surfaces[datum].datum()
+    let datum = || match asked.datums[..] {
+        [datum] => surfaces[datum].datum(),
+        _ => Err(unfit("a characteristic without the datum that it needs")),
     };
+    let is_system = asked.datums.len() > 1 || asked.kind == Kind::Angularity;
     match asked.kind {
         Kind::Flatness => surface.form(Element::Plane),
         Kind::Cylindricity => surface.form(Element::Cylinder),
+        Kind::Straightness => surface.straightness(),
         Kind::Roundness => surface.roundness(),
         Kind::Diameter => surface.diameter(),
+        Kind::Profile | Kind::Position if !asked.datums.is_empty() => {
+            let frame = systems.frame(surfaces, &asked.datums)?;
+            surface.located(&frame, asked.kind == Kind::Position)
+        }
         Kind::Profile => Ok(2.0 * surface.farthest_mm()),
         Kind::Position => match surface.feature.geometry.axis() {
             Some((at, axis)) => surface.about_axis(&at, &axis),
             None => Ok(2.0 * surface.farthest_mm()),
         },
+        Kind::Parallelism | Kind::Perpendicularity | Kind::Angularity if is_system => {
+            surface.oriented_by(&systems.frame(surfaces, &asked.datums)?)
+        }
         Kind::Parallelism => surface.oriented(&datum()?, true),
-        Kind::Perpendicularity => surface.oriented(&datum()?, false),
+        Kind::Perpendicularity | Kind::Angularity => surface.oriented(&datum()?, false),
         Kind::Coaxiality => {
             let datum = datum()?;
             surface.about_axis(&datum.point_mm, &datum.direction)
+        }
+        Kind::TotalRunOut if surface.feature.geometry.axis().is_none() => {
+            let axis = datum()?.direction;
+            Ok(range(surface.places_mm.iter().map(|p| p.dot(&axis))))
         }
         Kind::CircularRunOut => Ok(surface.run_out(&datum()?, &surface.feature.sections)),
         Kind::TotalRunOut => {
@@ -84,7 +125,7 @@ fn value(asked: &Characteristic, surfaces: &[Surface<'_>]) -> Result<f64, Error>
 }
 
 /// What the reader of the part file refuses.
-fn unfit(what: &str) -> Error {
+pub(super) fn unfit(what: &str) -> Error {
     Error::Shape { what: what.to_owned() }
 }
 
@@ -101,7 +142,7 @@ fn element(
 }
 
 impl Surface<'_> {
-    fn element(&self, kind: Element, criterion: Criterion) -> Result<Reference, Error> {
+    pub(super) fn element(&self, kind: Element, criterion: Criterion) -> Result<Reference, Error> {
         element(kind, criterion, &self.places_mm, &Known::default())
     }
 
@@ -115,20 +156,6 @@ impl Surface<'_> {
         };
         let found = self.element(Element::Cylinder, Criterion::LeastSquares)?;
         Ok(2.0 * (found.shape.radius_mm - radius_mm))
-    }
-
-    /// The associated element, ISO 5459: the plane of the minimum zone, the axis of the largest inscribed cylinder of a hole,
-    /// of the smallest circumscribed one of a shaft.
-    fn datum(&self) -> Result<Shape, Error> {
-        let (kind, criterion) = match self.feature.geometry {
-            Geometry::Plane { .. } => (Element::Plane, Criterion::MinimumZone),
-            Geometry::Cylinder { is_hole: true, .. } => {
-                (Element::Cylinder, Criterion::MaximumInscribed)
-            }
-            Geometry::Cylinder { .. } => (Element::Cylinder, Criterion::MinimumCircumscribed),
-            _ => return Err(unfit("a datum that is neither a plane nor a cylinder")),
-        };
-        Ok(self.element(kind, criterion)?.shape)
     }
 
     fn farthest_mm(&self) -> f64 {
@@ -181,6 +208,48 @@ impl Surface<'_> {
             (arm - axis * arm.dot(axis)).norm()
         };
         Ok(2.0 * centres.iter().map(off).fold(0.0, f64::max))
+    }
+
+    fn straightness(&self) -> Result<f64, Error> {
+        let centres = self.median_line()?;
+        let found = element(Element::Line, Criterion::MinimumZone, &centres, &Known::default())?;
+        Ok(found.form_mm())
+    }
+
+    /// Twice the largest distance from the nominal place in the frame of the datums: of the median line, of the surface.
+    fn located(&self, frame: &DatumFrame, is_position: bool) -> Result<f64, Error> {
+        let geometry = self.feature.geometry;
+        if let (true, Some((at, axis))) = (is_position, geometry.axis()) {
+            let centres = frame.seen(&self.median_line()?);
+            let off = |centre: &Vec3| {
+                let arm = centre - at;
+                (arm - axis * arm.dot(&axis)).norm()
+            };
+            return Ok(2.0 * centres.iter().map(off).fold(0.0, f64::max));
+        }
+        let seen = frame.seen(&self.places_mm);
+        let off = |(place, nominal): (&Vec3, &SurfacePoint)| match geometry.outside(place) {
+            Some((distance, _)) => distance.abs(),
+            // To first order: a table does not say how it bends.
+            None => nominal.normal.dot(&(place - nominal.point_mm)).abs(),
+        };
+        Ok(2.0 * seen.iter().zip(&self.feature.points).map(off).fold(0.0, f64::max))
+    }
+
+    /// At its angle in the frame of the datums; what they leave free turns the zone to where it is narrowest.
+    fn oriented_by(&self, frame: &DatumFrame) -> Result<f64, Error> {
+        let geometry = self.feature.geometry;
+        if let Some((_, axis)) = geometry.axis() {
+            let [x, y] = across(&axis);
+            let centres = frame.seen(&self.median_line()?);
+            let flat: Vec<[f64; 2]> = centres.iter().map(|p| [p.dot(&x), p.dot(&y)]).collect();
+            return Ok(2.0 * Fitter::default().enclosing_radius_mm(&flat)?);
+        }
+        let seen = frame.seen(&self.places_mm);
+        let free = frame.free.with_shifts().moving(&held(self.feature));
+        let outside = |_: usize, p: &Vec3| geometry.outside(p).unwrap_or((f64::NAN, Vec3::zeros()));
+        let zone = place(&seen, &free, &outside, Criterion::MinimumZone)?;
+        Ok(zone.high_mm - zone.low_mm)
     }
 
     /// Parallel or perpendicular to a plane or an axis: of a plane the width between two planes, of an axis the diameter of a

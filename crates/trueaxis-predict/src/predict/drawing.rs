@@ -3,6 +3,7 @@
 //! ```text
 //! PartStudy { machine, program, part }
 //!     program ──simulate──> CutPath: steps of each tool, nominal and actual ──> Sweeps
+//!     nominal Sweeps ──> points of the surfaces that the part file leaves to the program
 //!     part ──> nails ──cut──> deviation of each point, with the block that made it
 //!                     └─ normal of the cutter there × displacement of the tool by each error ──> u, error budget
 //!     deviations ──Part::evaluate──> values ──limits──> verdict
@@ -10,13 +11,14 @@
 
 mod budget;
 mod path;
+mod programmed;
 mod study;
 
 pub use budget::{ErrorEffect, effects};
 pub use path::{CutPath, Origin};
 pub use study::{PartStudy, is_part_study, read_part_study};
 
-use super::study::Decision;
+use super::study::{Decision, errors_without_u};
 use trueaxis_cut::{Cut, Nail, Reach, cut};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::surface::SurfacePoint;
@@ -77,6 +79,8 @@ pub struct PartPrediction {
     pub outcome: Outcome,
     /// Moves that cut, all tools together.
     pub steps: usize,
+    /// Errors whose uncertainty is not stated: they add nothing to u.
+    pub errors_without_u: Vec<String>,
 }
 
 /// Cuts the part of a study and judges it.
@@ -113,13 +117,15 @@ pub fn predict_part(study: &PartStudy, problems: &mut Diagnostics) -> Option<Par
             return None;
         }
     };
-    let nails = nails(&study.part);
+    let part = programmed::completed(study, &nominal, problems)?;
+    let nails = nails(&part);
     let [actual, nominal] = [actual, nominal].map(|sweeps| cut(&sweeps, &nails));
-    let found = reached(study, &actual, problems)?;
-    let by_program = reached(study, &nominal, problems)?;
+    let found = reached(study, &part, &actual, problems)?;
+    let by_program = reached(study, &part, &nominal, problems)?;
     let by_program: Vec<f64> = by_program.iter().map(|c| c.deviation_mm).collect();
     let deviations: Vec<f64> = found.iter().map(|c| c.deviation_mm).collect();
-    let values = budget::values(study, &path, (&nails, &found), (&deviations, &by_program));
+    let values =
+        budget::values((study, &part), &path, (&nails, &found), (&deviations, &by_program));
     let values = match values {
         Ok(values) => values,
         Err(why) => {
@@ -140,7 +146,7 @@ pub fn predict_part(study: &PartStudy, problems: &mut Diagnostics) -> Option<Par
             by_program_mm: *by_program,
             origin: path.origin(cut),
         });
-    let features = study.part.features.iter();
+    let features = part.features.iter();
     let features = features
         .map(|f| CutFeature { points: points.by_ref().take(f.points.len()).collect() })
         .collect();
@@ -149,7 +155,14 @@ pub fn predict_part(study: &PartStudy, problems: &mut Diagnostics) -> Option<Par
         (Outcome::Undecided, _) | (_, Outcome::Undecided) => Outcome::Undecided,
         (Outcome::Pass, Outcome::Pass) => Outcome::Pass,
     });
-    Some(PartPrediction { features, values, programs: run.programs, outcome, steps: path.steps() })
+    Some(PartPrediction {
+        features,
+        values,
+        programs: run.programs,
+        outcome,
+        steps: path.steps(),
+        errors_without_u: errors_without_u(&study.mounted),
+    })
 }
 
 /// A nail on each point.
@@ -168,10 +181,15 @@ fn nails(part: &part::Part) -> Vec<Nail> {
 }
 
 /// The cuts, if every point was cut within its nail.
-fn reached(study: &PartStudy, reaches: &[Reach], problems: &mut Diagnostics) -> Option<Vec<Cut>> {
+fn reached(
+    study: &PartStudy,
+    part: &part::Part,
+    reaches: &[Reach],
+    problems: &mut Diagnostics,
+) -> Option<Vec<Cut>> {
     let mut rest = reaches;
     let mut sound = true;
-    for feature in &study.part.features {
+    for feature in &part.features {
         let (own, others) = rest.split_at(feature.points.len());
         rest = others;
         let not_cut: Vec<usize> = places(own, |r| *r == Reach::NotCut);

@@ -255,6 +255,16 @@ pub(super) fn check_uncertainties(
     machine: &Machine,
 ) {
     let Some(Decision::Guarded { .. }) = decision else { return };
+    let names = errors_without_u(machine);
+    if !names.is_empty() {
+        let message = format!("ISO 14253-1 needs u of every error; none for {}", names.join(" "));
+        let hint = "state them in the machine file (\"12 ± 1 urad\"), or say rule = \"simple\"";
+        root.error("no-uncertainty", message, hint);
+    }
+}
+
+/// The errors whose uncertainty the machine file does not state.
+pub(super) fn errors_without_u(machine: &Machine) -> Vec<String> {
     let stated = machine.stated_errors();
     let without = stated.iter().filter(|(index, name)| {
         let body = &machine.bodies()[index.body];
@@ -262,11 +272,7 @@ pub(super) fn check_uncertainties(
     });
     let mut names: Vec<String> = without.map(|(_, name)| name.to_string()).collect();
     names.extend(machine.coefficients_without_u());
-    if !names.is_empty() {
-        let message = format!("ISO 14253-1 needs u of every error; none for {}", names.join(" "));
-        let hint = "state them in the machine file (\"12 ± 1 urad\"), or say rule = \"simple\"";
-        root.error("no-uncertainty", message, hint);
-    }
+    names
 }
 
 /// A file with `source` and `[tolerance]`, used instead of the tolerances of the test piece.

@@ -66,8 +66,15 @@ fn characteristics<'a>(study: &PartStudy, prediction: &PartPrediction) -> Sectio
     };
     let rows = study.part.characteristics.iter().zip(&prediction.values).map(row);
     let headings = ["all in µm", "value", "u", "program alone", "allowed", "used", "verdict"];
-    let note = "u: standard uncertainty by those of the machine file. Program alone: what this program leaves on a \
-                machine without errors.";
+    let unknown = match prediction.errors_without_u.len() {
+        0 => String::new(),
+        1 => " One error of it states none and adds nothing to u.".to_owned(),
+        count => format!(" {count} errors of it state none and add nothing to u."),
+    };
+    let note = format!(
+        "u: standard uncertainty by those of the machine file.{unknown} Program alone: what this program leaves on a \
+         machine without errors."
+    );
     Section::new("Characteristics").table(Table::new(headings).rows(rows).note(note))
 }
 

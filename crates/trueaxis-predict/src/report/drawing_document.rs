@@ -23,6 +23,8 @@ pub struct DrawingDocument<'a> {
     pub outcome: &'static str,
     /// Steps of the tools.
     pub steps: usize,
+    /// Errors of the machine file without a stated uncertainty; they add nothing to `u_mm`.
+    pub errors_without_u: &'a [String],
     /// The lines of the drawing, in the order of the part file.
     pub characteristics: Vec<CharacteristicEntry<'a>>,
     /// The features, in the order of the part file.
@@ -38,8 +40,8 @@ pub struct CharacteristicEntry<'a> {
     pub kind: &'static str,
     /// Of which feature.
     pub feature: &'a str,
-    /// To which feature; null without a datum.
-    pub datum: Option<&'a str>,
+    /// To which features, the first datum first; empty: to the zero that was set.
+    pub datums: Vec<&'a str>,
     /// Its value; of a size the deviation from the nominal one, mm.
     pub value_mm: f64,
     /// Standard uncertainty of that, by the stated uncertainties of the machine, mm.
@@ -72,7 +74,7 @@ pub struct ErrorEffectEntry {
 pub struct FeatureEntry<'a> {
     /// Its name.
     pub name: &'a str,
-    /// `plane`, `cylinder`, `cone`, `sphere` or `points`.
+    /// `plane`, `cylinder`, `cone`, `sphere`, `points` or `programmed surface`.
     pub shape: &'static str,
     /// How many points it has.
     pub points: usize,
@@ -124,6 +126,7 @@ impl<'a> DrawingDocument<'a> {
             part: &part.name,
             outcome: word(prediction.outcome),
             steps: prediction.steps,
+            errors_without_u: &prediction.errors_without_u,
             characteristics: asked
                 .map(|(asked, value)| CharacteristicEntry::of(&part.features, asked, value))
                 .collect(),
@@ -148,7 +151,7 @@ impl<'a> CharacteristicEntry<'a> {
             name: &asked.name,
             kind: asked.kind.key(),
             feature: &features[asked.feature].name,
-            datum: asked.datum.map(|d| features[d].name.as_str()),
+            datums: asked.datums.iter().map(|d| features[*d].name.as_str()).collect(),
             value_mm: value.value_mm,
             u_mm: value.u_mm,
             nominal_mm: value.nominal_mm,

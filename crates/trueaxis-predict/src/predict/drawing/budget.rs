@@ -62,7 +62,7 @@ impl Cuts<'_> {
 }
 
 pub(super) fn values(
-    study: &PartStudy,
+    (study, part): (&PartStudy, &part::Part),
     path: &CutPath<'_>,
     (nails, cuts): (&[Nail], &[Cut]),
     (deviations, by_program): (&[f64], &[f64]),
@@ -78,7 +78,6 @@ pub(super) fn values(
         }
     };
     let all = Cuts { places, zero };
-    let part = &study.part;
     let evaluate = |deviation_mm: &[f64]| part.evaluate(deviation_mm).map_err(|e| e.to_string());
     let actual = evaluate(deviations)?;
     let nominal = evaluate(by_program)?;

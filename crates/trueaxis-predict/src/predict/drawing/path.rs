@@ -155,11 +155,5 @@ impl Observer for CutPath<'_> {
 /// The cutter of a tool of the set-up.
 fn cutter(number: u32, tool: Option<&SetUpTool>) -> Result<Cutter, String> {
     let tool = tool.ok_or_else(|| format!("tool {number}: the set-up file does not state it"))?;
-    let first = tool.shape.first();
-    let diameter_mm = tool.diameter_mm.or(first.map(|s| s.diameter_mm));
-    let diameter_mm =
-        diameter_mm.ok_or_else(|| format!("tool {number}: its diameter is not stated"))?;
-    let length_mm = first.map_or(-tool.tip_mm.z, |s| s.length_mm);
-    Cutter::bull(diameter_mm, tool.corner_radius_mm, length_mm)
-        .map_err(|e| format!("tool {number}: {e}"))
+    tool.cutter().map_err(|e| format!("tool {number}: {e}"))
 }
