@@ -20,3 +20,4 @@ status=0
 $trueaxis predict examples/03_predict/housing.toml --report "$out/housing.html" || status=$?
 test "$status" = 1
 $trueaxis predict examples/03_predict/blade.toml --report "$out/blade.html"
+$trueaxis predict examples/03_predict/s-shape.toml --report "$out/s-shape.html"

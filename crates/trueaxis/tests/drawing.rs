@@ -252,16 +252,34 @@ fn studies_that_ask_for_more_are_refused() {
     }
 }
 
-/// The shipped example is read as it stands.
-#[test]
-fn the_housing_is_judged() {
-    let path = root().join("examples/03_predict/housing.toml");
+fn shipped(name: &str) -> (PartStudy, PartPrediction) {
+    let path = root().join("examples/03_predict").join(name);
     let (study, problems) = read_part_study(&disk(), &path);
     let study = study.unwrap_or_else(|| panic!("{:?}", words(&problems)));
     let mut problems = Diagnostics::new();
     let found = predict_part(&study, &mut problems).expect("a prediction");
     assert_eq!(found.values.len(), study.part.characteristics.len());
-    assert!(found.values.iter().all(|v| v.value_mm.is_finite() && v.u_mm > 0.0));
+    (study, found)
+}
+
+/// The shipped examples are read as they stand.
+#[test]
+fn the_housing_and_the_blade_are_judged() {
+    let (_, housing) = shipped("housing.toml");
+    assert!(housing.values.iter().all(|v| v.value_mm.is_finite() && v.u_mm > 0.0));
+    let (_, blade) = shipped("blade.toml");
+    assert!(blade.features[0].points.len() > 1000 && !blade.errors_without_u.is_empty());
+    assert!(blade.features[0].points.iter().all(|p| p.by_program_mm.abs() < 1e-5));
+}
+
+/// What the twist of the rulings costs: 40.40 and 40.12 µm by `oracles/s_shape_cut.py` for a smooth way of the tool; the chords of the program
+/// change it by less than 0.3 µm.
+#[test]
+fn oracle_the_s_shape_by_its_program() {
+    let (_, found) = shipped("s-shape.toml");
+    for (value, due) in found.values.iter().zip([40.40e-3, 40.12e-3]) {
+        assert!((value.nominal_mm - due).abs() < 0.3e-3, "{} {due}", value.nominal_mm);
+    }
 }
 
 /// Two tools by turns, the second one 10 mm longer: every block is that of its move, whichever tool came before.
