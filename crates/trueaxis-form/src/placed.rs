@@ -134,7 +134,7 @@ impl Freedom {
         self.twists.iter().map(|t| normal.dot(&(t.way + t.turn.cross(&arm)))).collect()
     }
 
-    /// The motion of so much of each twist.
+    /// The motion of so much of each twist: a screw, so that a surface that a twist leaves alone stays where it is.
     fn motion(&self, amounts: &[f64]) -> Motion {
         let sum = |part: fn(&Twist) -> Vec3| {
             let parts = self.twists.iter().zip(amounts);
@@ -142,11 +142,17 @@ impl Freedom {
         };
         let (way, turn) = (sum(|t| t.way) * self.size_mm, sum(|t| t.turn));
         let angle = turn.norm();
-        let linear = match angle > 0.0 {
-            true => rotation(turn / angle, angle),
-            false => trueaxis_geometry::Mat3::identity(),
-        };
-        Pose::new(linear, self.pivot_mm + way - linear * self.pivot_mm)
+        if angle == 0.0 {
+            return Pose::shift(way);
+        }
+        let axis = turn / angle;
+        let linear = rotation(axis, angle);
+        // The integral of the rotation over the way (Rodrigues); 1 − cos φ by 2 sin²(φ/2).
+        let (sin, half) = (angle.sin(), (0.5 * angle).sin());
+        let along = axis * axis.dot(&way);
+        let moved =
+            along + (way - along) * (sin / angle) + axis.cross(&way) * (2.0 * half * half / angle);
+        Pose::new(linear, self.pivot_mm + moved - linear * self.pivot_mm)
     }
 }
 

@@ -76,7 +76,7 @@ impl DatumFrame {
         let free = self.free.moving(&held(surface.feature));
         let outside = |_: usize, p: &Vec3| geometry.outside(p).unwrap_or((f64::NAN, Vec3::zeros()));
         match geometry {
-            Geometry::Plane { normal, .. } if free.has_shift(&normal) => {
+            Geometry::Plane { normal, .. } if self.free.has_shift(&normal) => {
                 let zone = place(&places, &free, &outside, Criterion::MinimumZone)?;
                 // Outside of the material, touching it.
                 Ok(zone.motion * Pose::shift(normal * zone.high_mm))
@@ -93,8 +93,8 @@ impl DatumFrame {
             }
             Geometry::Cylinder { at_mm, axis, is_hole, .. } => {
                 let shifts = super::feature::across(&axis);
-                let turns = free.twists().iter().any(|t| t.turn.cross(&axis).norm() > 1e-9);
-                if turns || !shifts.iter().all(|s| free.has_shift(s)) {
+                let turns = self.free.twists().iter().any(|t| t.turn.cross(&axis).norm() > 1e-9);
+                if turns || !shifts.iter().all(|s| self.free.has_shift(s)) {
                     return Ok(
                         place(&places, &free, &outside, Criterion::MinimumCircumscribed)?.motion
                     );
