@@ -551,7 +551,7 @@ export type Verb = "predict" | "simulate" | "plan" | "identify" | "evaluate" | "
  */
 export type IssueEntry = {
   /**
-   * `collision`, `near-miss`, `rapid-in-stock`, `over-travel`, `over-speed`, `slowed-down` or `rotary-flip`.
+   * `collision`, `near-miss`, `rapid-in-stock`, `gouged-part`, `over-travel`, `over-speed`, `slowed-down` or `rotary-flip`.
    */
   code: string;
   /**
@@ -599,6 +599,16 @@ export type IssueEntry = {
        * Their smallest distance, mm.
        */
       clearance_mm: number;
+    }
+  | {
+      /**
+       * The tool.
+       */
+      tool: number;
+      /**
+       * How deep it cuts into the part, mm.
+       */
+      depth_mm: number;
     }
   | {
       /**
@@ -9625,6 +9635,10 @@ export interface PredictPart {
    */
   steps: number;
   /**
+   * Errors of the machine file without a stated uncertainty; they add nothing to `u_mm`.
+   */
+  errors_without_u: string[];
+  /**
    * The lines of the drawing, in the order of the part file.
    */
   characteristics: CharacteristicEntry[];
@@ -11566,6 +11580,10 @@ export interface DrawingDocument {
    */
   steps: number;
   /**
+   * Errors of the machine file without a stated uncertainty; they add nothing to `u_mm`.
+   */
+  errors_without_u: string[];
+  /**
    * The lines of the drawing, in the order of the part file.
    */
   characteristics: CharacteristicEntry[];
@@ -12113,6 +12131,10 @@ export interface SimulationDocument {
    * Temperatures during the program; null without a temperature log.
    */
   temperatures: TemperaturesEntry | null;
+  /**
+   * What became of the stock; null where it was not cut (`--stock`).
+   */
+  stock: StockEntry | null;
 }
 /**
  * The machine.
@@ -12378,6 +12400,80 @@ export interface SimulateWorstEntry {
    * The time, s.
    */
   time_s: number;
+}
+/**
+ * What became of the stock.
+ */
+export interface StockEntry {
+  /**
+   * Distance of the lines that the stock is kept on, mm.
+   */
+  resolution_mm: number;
+  /**
+   * Volume before the first cut, mm³.
+   */
+  before_mm3: number;
+  /**
+   * Volume that remains, mm³.
+   */
+  left_mm3: number;
+  /**
+   * How far the volumes by lines along X, Y and Z differ from their mean, mm³.
+   */
+  spread_mm3: number;
+  /**
+   * Volume that was removed, mm³.
+   */
+  removed_mm3: number;
+  /**
+   * With feed in material, s.
+   */
+  cutting_s: number;
+  /**
+   * With feed in the air, s.
+   */
+  air_s: number;
+  /**
+   * Volume that was cut from the part of the set-up, mm³; null without a part.
+   */
+  gouged_mm3: number | null;
+  /**
+   * Volume that remains beside the part, mm³; null without a part.
+   */
+  excess_mm3: number | null;
+  /**
+   * The first 1000 blocks that move a tool, in the order of programs and lines.
+   */
+  blocks: SimulateBlockEntry[];
+  /**
+   * How many more there are.
+   */
+  blocks_left_out: number;
+}
+/**
+ * What a block took, all its runs together.
+ */
+export interface SimulateBlockEntry {
+  /**
+   * The program, an index into `programs`.
+   */
+  program: number;
+  /**
+   * The line.
+   */
+  line: number;
+  /**
+   * Volume that it removed, mm³.
+   */
+  removed_mm3: number;
+  /**
+   * With feed in material, s.
+   */
+  cutting_s: number;
+  /**
+   * With feed in the air, s.
+   */
+  air_s: number;
 }
 /**
  * A tool of the set-up.
@@ -12924,6 +13020,10 @@ export interface Simulate {
    * Temperatures during the program; null without a temperature log.
    */
   temperatures: TemperaturesEntry | null;
+  /**
+   * What became of the stock; null where it was not cut (`--stock`).
+   */
+  stock: StockEntry | null;
   /**
    * The problems found in the input; the command line prints them on standard error, too.
    */

@@ -4,6 +4,7 @@ trueaxis=${TRUEAXIS:-target/release/trueaxis}
 out=${OUT:-.}
 $trueaxis simulate machines/wyxzcat-gantry/machine.toml examples/02_simulate/impeller-840d.mpf --report "$out/impeller.html"
 $trueaxis simulate machines/i5-engraver/machine.toml examples/02_simulate/ring-fanuc.nc --report "$out/ring.html" --path "$out/ring.csv"
+$trueaxis simulate machines/i5-engraver/machine.toml examples/02_simulate/ring-fanuc.nc --stock --report "$out/ring-stock.html"
 $trueaxis trace machines/wyxzcat-gantry/machine.toml examples/02_simulate/impeller-840d.mpf --block 120
 # The nodes of the same gantry with errors: nominal and actual pose of each at every point of the path.
 $trueaxis check machines/wyxzcat-gantry/with-errors.toml --frames

@@ -13,6 +13,7 @@ use trueaxis::questions::{MachineChoice, ProgramChoice, Simulate};
 Examples:
   trueaxis simulate machines/wyxzcat-gantry/machine.toml examples/02_simulate/impeller-840d.mpf
   trueaxis simulate machines/i5-engraver/machine.toml examples/02_simulate/ring-fanuc.nc --format json
+  trueaxis simulate machines/i5-engraver/machine.toml examples/02_simulate/ring-fanuc.nc --stock
   trueaxis simulate MACHINE.toml PART.ngc --setup PART.setup.toml --path path.csv --chord 0.002
   trueaxis simulate MACHINE.toml PART.mpf --temperature-log hall.csv --log-start \"2 h\"
 
@@ -20,7 +21,7 @@ With --log-start every point of the path is evaluated at the temperatures of its
 0.01 K), and the summary shows the drift: the change of the deviation since the start. A program
 that is longer than its log is an error. Without --setup work offsets and tool lengths are 0; a file
 PROGRAM.setup.toml in the folder of the program is used automatically. Exit status: 0 no critical
-issue, 1 a collision, a rapid move through stock, an axis beyond its travel, or motion that is not
+issue, 1 a collision, a rapid move through stock, a gouge, an axis beyond its travel, or motion that is not
 executed (see the diagnostics), 2 unusable input; then nothing is written.")]
 pub struct Arguments {
     #[command(flatten)]
@@ -36,6 +37,10 @@ pub struct Arguments {
     /// Without the collision check
     #[arg(long)]
     no_collisions: bool,
+    /// Cut the [stock] of the set-up: removed volume by block, rapid moves and shanks in what remains
+    /// of it, gouges of its [part]; a [stock] with a resolution always is
+    #[arg(long)]
+    stock: bool,
     /// List errors of the program and continue after them
     #[arg(long)]
     keep_going: bool,
@@ -111,10 +116,11 @@ impl ProgramArguments {
 }
 
 pub fn run(arguments: Arguments) -> Outcome {
-    let Arguments { machine, program, path, bodies, no_collisions, keep_going, door } = arguments;
+    let Arguments { machine, program, path, bodies, no_collisions, stock, keep_going, door } =
+        arguments;
     let (machine, program) = program.choices(machine);
     let program = ProgramChoice { keep_going, ..program };
     let pictures = door.report.is_some();
-    let question = Simulate { machine, program, path, bodies, pictures, no_collisions };
+    let question = Simulate { machine, program, path, bodies, pictures, no_collisions, stock };
     door.door().ask(&question)
 }

@@ -280,6 +280,11 @@ impl Cutter {
         self.centre_mm[1].clamp(0.0, self.height_mm)
     }
 
+    /// Its largest radius, and its height.
+    pub(crate) fn extent_mm(&self) -> (f64, f64) {
+        (self.widest_mm, self.height_mm)
+    }
+
     /// The radius of its corner.
     pub(crate) fn corner_mm(&self) -> f64 {
         self.corner_mm

@@ -28,6 +28,7 @@
 mod cutter;
 mod motion;
 mod nail;
+pub mod stock;
 mod sweep;
 mod tree;
 

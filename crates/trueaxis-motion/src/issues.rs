@@ -32,6 +32,11 @@ pub enum IssueKind {
         /// The body that it meets.
         second: String,
     },
+    /// The cutter takes something off the part.
+    Gouge {
+        /// Its number.
+        tool: u32,
+    },
     /// An axis leaves its travel.
     OverTravel {
         /// Its index.
@@ -108,9 +113,17 @@ pub struct Log {
 impl Log {
     /// Records an issue at a node; the value farthest from its limit is the worst of a stretch.
     pub fn note(&mut self, kind: IssueKind, node: &Node, stamp: &Stamp, value: f64, limit: f64) {
-        use IssueKind::{Collision, OverTravel, RapidInStock};
-        let critical = matches!(kind, Collision { .. } | OverTravel { .. } | RapidInStock { .. });
-        let (origin, time_s) = (node.origin, stamp.time_s);
+        self.note_at(kind, (node.origin, stamp.time_s), value, limit);
+    }
+
+    /// The same at a block and a time.
+    pub fn note_at(&mut self, kind: IssueKind, at: (Origin, f64), value: f64, limit: f64) {
+        use IssueKind::{Collision, Gouge, OverTravel, RapidInStock};
+        let critical = matches!(
+            kind,
+            Collision { .. } | Gouge { .. } | OverTravel { .. } | RapidInStock { .. }
+        );
+        let (origin, time_s) = at;
         let entry = self.open.entry(kind.clone()).or_insert(Issue {
             kind,
             critical,

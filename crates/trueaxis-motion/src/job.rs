@@ -1,10 +1,10 @@
 //! From files to results: used by the command line and by the window.
 
-use super::collide::{BodyModel, load_models};
+use super::collide::{BodyModel, Role, load_models};
 use super::program::program_of;
 use super::{
-    AxisWatch, Batch, Collisions, Drift, Issue, IssueKind, IssueList, Observer, Options, Run,
-    SetUp, Summary, read_program, read_setup, simulate,
+    AxisWatch, Batch, Collisions, Drift, Issue, IssueKind, IssueList, Machined, Machining,
+    Observer, Options, Run, SetUp, Summary, read_program, read_setup, simulate,
 };
 use crate::report::issue_text;
 use crate::tool_check;
@@ -109,10 +109,27 @@ impl Job {
         Collisions::watch(&self.machine, self.models.clone(), &self.setup)
     }
 
+    /// The same where the stock is cut: what goes through it is asked of [`Machining`].
+    pub fn collisions_beside_stock(&self) -> Option<Collisions> {
+        let mut setup = self.setup.clone();
+        setup.bodies.retain(|b| !matches!(b.role, Role::Stock | Role::Part));
+        Collisions::watch(&self.machine, self.models.clone(), &setup)
+    }
+
     /// Simulates; `collisions` are looked for if they are given, `observers` look on.
     pub fn run(
         &self,
+        collisions: Option<Collisions>,
+        observers: &mut [&mut dyn Observer],
+    ) -> Findings {
+        self.run_on(collisions, None, observers)
+    }
+
+    /// The same, and cuts the stock if it is given.
+    pub fn run_on(
+        &self,
         mut collisions: Option<Collisions>,
+        mut machining: Option<Machining>,
         observers: &mut [&mut dyn Observer],
     ) -> Findings {
         let mut summary = Summary::of(&self.machine);
@@ -126,6 +143,9 @@ impl Job {
         if let Some(collisions) = &mut collisions {
             all.push(collisions);
         }
+        if let Some(machining) = &mut machining {
+            all.push(machining);
+        }
         if let Some(drift) = &mut drift {
             all.push(drift);
         }
@@ -134,10 +154,14 @@ impl Job {
         if let Some(collisions) = &collisions {
             run.problems.append(collisions.problems(&run.programs));
         }
-        let logs = [Some(watch.log), collisions.map(|c| c.log)];
+        let machined = machining.as_mut().map(Machining::machined);
+        if let Some(machining) = &machining {
+            run.problems.append(machining.problems(&run.programs));
+        }
+        let logs = [Some(watch.log), collisions.map(|c| c.log), machining.map(|m| m.log)];
         let issues = IssueList::of(logs.into_iter().flatten());
         self.warn_outside_travel(&summary, &issues, &mut run);
-        Findings { run, summary, issues, drift }
+        Findings { run, summary, issues, drift, machined }
     }
 
     /// The errors of a machine are known within its travel only: a deviation beyond it is a formula carried on.
@@ -174,6 +198,8 @@ pub struct Findings {
     pub issues: IssueList,
     /// The effect of changing temperatures, where they followed a log.
     pub drift: Option<Drift>,
+    /// What became of the stock, where it was cut.
+    pub machined: Option<Machined>,
 }
 
 /// Reports how far the main program has come: the part of its lines, 0 to 1. Loops go back; the part

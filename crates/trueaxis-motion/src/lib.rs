@@ -34,6 +34,7 @@ mod drift;
 mod equipment;
 mod issues;
 mod job;
+mod machining;
 mod orientation;
 mod parquet_log;
 #[cfg(feature = "parquet")]
@@ -60,6 +61,7 @@ pub use densify::{Densify, pieces};
 pub use drift::{Drift, SensorRange};
 pub use issues::{AxisWatch, Issue, IssueKind, IssueList, Log};
 pub use job::{Findings, Job, ProgramFiles, Progress};
+pub use machining::{BlockUse, Machined, Machining};
 #[cfg(feature = "parquet")]
 pub use parquet_table::ParquetTable;
 pub use program::read_program;

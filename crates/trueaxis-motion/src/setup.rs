@@ -104,6 +104,8 @@ pub struct SetUp {
     pub workpiece_at: Option<u32>,
     /// Stock, fixtures and part, on the workpiece.
     pub bodies: Vec<BodyModel>,
+    /// How finely the stock is kept, if stated, mm.
+    pub stock_resolution_mm: Option<f64>,
     /// When bodies count as too near.
     pub nearness: Nearness,
 }
@@ -181,7 +183,7 @@ fn read(root: &Section<'_>, machine: &Machine, folder: &Path) -> SetUp {
     if let Some(item) = root.get("archive") {
         read_archive(root, &item, folder, &mut setup);
     }
-    setup.bodies = read_bodies(root, folder);
+    (setup.bodies, setup.stock_resolution_mm) = read_bodies(root, folder);
     if let Some(nearness) = root.section("collision", read_nearness) {
         setup.nearness = nearness;
     }
@@ -221,18 +223,21 @@ fn check_reference(root: &Section<'_>, setup: &SetUp) {
     }
 }
 
-/// `[stock]`, `[part]` and every `[[fixture]]`; places in the workpiece frame.
-fn read_bodies(root: &Section<'_>, folder: &Path) -> Vec<BodyModel> {
-    let mut bodies = Vec::new();
-    for (key, role) in [("stock", Role::Stock), ("part", Role::Part)] {
-        bodies.extend(root.section(key, |s| read_body(root, s, key, role, folder)).flatten());
-    }
+/// `[stock]` with its resolution, `[part]` and every `[[fixture]]`; places in the workpiece frame.
+fn read_bodies(root: &Section<'_>, folder: &Path) -> (Vec<BodyModel>, Option<f64>) {
+    let (mut bodies, mut resolution_mm) = (Vec::new(), None);
+    bodies.extend(root.section("stock", |s| {
+        resolution_mm = read_resolution(s);
+        read_body(root, s, "stock", Role::Stock, folder)
+    }));
+    bodies.extend(root.section("part", |s| read_body(root, s, "part", Role::Part, folder)));
+    let mut bodies: Vec<BodyModel> = bodies.into_iter().flatten().collect();
     for item in root.get("fixture").and_then(|item| item.list()).unwrap_or_default() {
         let name = format!("fixture {}", bodies.len());
         let read = |s: &Section<'_>| read_body(root, s, &name, Role::Fixture, folder);
         bodies.extend(item.section("fixture", read).flatten());
     }
-    bodies
+    (bodies, resolution_mm)
 }
 
 fn read_body(
@@ -255,6 +260,17 @@ fn read_body(
     };
     // The workpiece is the first body of the chain.
     Some(BodyModel { name, node: Some(0), placement, role, mesh })
+}
+
+/// `resolution = "0.5 mm"` of `[stock]`.
+fn read_resolution(section: &Section<'_>) -> Option<f64> {
+    let item = section.get("resolution")?;
+    let value = item.quantity(Dimension::Length)?;
+    if value <= 0.0 {
+        item.error("bad-stock", format!("{value} mm is not a resolution"), "such as \"0.5 mm\"");
+        return None;
+    }
+    Some(value)
 }
 
 fn read_nearness(section: &Section<'_>) -> Nearness {

@@ -2,10 +2,11 @@
 
 use super::simulation_pictures::{axis_pictures, curves, marks_note};
 use super::simulation_views::tool_path;
+use super::stock::stock_section;
 use super::tool_states::{spindle_section, state_section};
 use crate::{
-    AxisUse, Drift, Findings, Issue, IssueKind, IssueList, Job, Run, Series, SetUp, Summary, Worst,
-    limit_name, shown, unit,
+    AxisUse, Drift, Findings, Issue, IssueKind, IssueList, Job, Machined, Run, Series, SetUp,
+    Summary, Worst, limit_name, shown, unit,
 };
 use std::path::Path;
 use trueaxis_input::{Diagnostic, Severity};
@@ -37,6 +38,8 @@ pub struct Simulation<'a> {
     pub path_file: Option<&'a str>,
     /// The effect of changing temperatures, where they followed a log.
     pub drift: Option<&'a Drift>,
+    /// What became of the stock, where it was cut.
+    pub machined: Option<&'a Machined>,
 }
 
 impl<'a> Simulation<'a> {
@@ -52,6 +55,7 @@ impl<'a> Simulation<'a> {
             issues: &found.issues,
             path_file: None,
             drift: found.drift.as_ref(),
+            machined: found.machined.as_ref(),
         }
     }
 
@@ -107,6 +111,9 @@ pub fn issue_text(machine: &Machine, issue: &Issue) -> String {
         IssueKind::RapidInStock { first, second } => {
             format!("rapid through stock: {first} in {second}, clearance 0 mm")
         }
+        IssueKind::Gouge { tool } => {
+            format!("gouge: tool {tool} cuts {:.3} mm into the part", issue.value)
+        }
         IssueKind::OverTravel { axis } => format!(
             "over-travel: {} goes to {}, its end is {}",
             name(*axis),
@@ -144,6 +151,7 @@ pub fn issue_code(kind: &IssueKind) -> &'static str {
         IssueKind::Collision { .. } => "collision",
         IssueKind::NearMiss { .. } => "near-miss",
         IssueKind::RapidInStock { .. } => "rapid-in-stock",
+        IssueKind::Gouge { .. } => "gouged-part",
         IssueKind::OverTravel { .. } => "over-travel",
         IssueKind::OverSpeed { .. } => "over-speed",
         IssueKind::SlowedDown { .. } => "slowed-down",
@@ -176,6 +184,7 @@ pub fn simulation_report<'a>(s: Simulation<'a>, series: Option<&'a Series>) -> R
         .verdict(standing, word, sentence)
         .section(issue_section(&s))
         .section(summary_section(s.summary))
+        .sections(s.machined.map(|machined| stock_section(&s, machined)))
         .section(deviation_section(&s))
         .sections(drawn.into_iter().flatten())
         .section(axis_section(s, series))

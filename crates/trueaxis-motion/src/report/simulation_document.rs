@@ -1,6 +1,7 @@
 //! A simulation for programs: the document `trueaxis/simulate/1`.
 
 use super::simulation::{Simulation, control_name, issue_code, issue_text};
+use super::stock::StockEntry;
 use super::tool_states::ToolStateEntry;
 use crate::{AxisUse, Drift, Issue, IssueKind, Reversal, Worst, shown, tool_standings, unit};
 use schemars::JsonSchema;
@@ -70,6 +71,8 @@ pub struct SimulationDocument<'a> {
     pub path_file: Option<&'a str>,
     /// Temperatures during the program; null without a temperature log.
     pub temperatures: Option<TemperaturesEntry<'a>>,
+    /// What became of the stock; null where it was not cut (`--stock`).
+    pub stock: Option<StockEntry>,
 }
 
 /// The machine.
@@ -155,7 +158,7 @@ pub struct ReversalEntry {
 /// An issue over a stretch of the path.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct IssueEntry<'a> {
-    /// `collision`, `near-miss`, `rapid-in-stock`, `over-travel`, `over-speed`, `slowed-down` or `rotary-flip`.
+    /// `collision`, `near-miss`, `rapid-in-stock`, `gouged-part`, `over-travel`, `over-speed`, `slowed-down` or `rotary-flip`.
     pub code: &'static str,
     /// Whether part or machine are in danger; other issues cost time only.
     #[serde(rename = "grave")]
@@ -189,6 +192,13 @@ pub enum IssueValues<'a> {
         bodies: [&'a str; 2],
         /// Their smallest distance, mm.
         clearance_mm: f64,
+    },
+    /// `gouged-part`.
+    Gouge {
+        /// The tool.
+        tool: u32,
+        /// How deep it cuts into the part, mm.
+        depth_mm: f64,
     },
     /// `over-travel`, `over-speed`.
     Limit {
@@ -309,6 +319,7 @@ impl<'a> SimulationDocument<'a> {
             tools: tool_entries(s),
             path_file: s.path_file,
             temperatures: s.drift.map(TemperaturesEntry::from),
+            stock: s.machined.map(StockEntry::from),
         }
     }
 }
@@ -395,6 +406,7 @@ impl<'a> IssueValues<'a> {
             | IssueKind::RapidInStock { first, second } => {
                 Self::Bodies { bodies: [first, second], clearance_mm: t.value }
             }
+            IssueKind::Gouge { tool } => Self::Gouge { tool: *tool, depth_mm: t.value },
             IssueKind::OverTravel { axis } | IssueKind::OverSpeed { axis, .. } => Self::Limit {
                 axis: name(*axis),
                 value: shown(s.machine, *axis, t.value),

@@ -39,7 +39,9 @@ impl Request for SimulateRequest {
         let question = self.question(desk, job)?;
         let simulation = question.job(&disk(), &mut problems).filter(|_| !problems.has_errors());
         let Some(simulation) = simulation else { return Err(Refusal::unusable(&problems)) };
-        let collisions = if question.no_collisions { None } else { simulation.collisions() };
+        let Some((collisions, machining)) = question.watchers(&simulation, &mut problems) else {
+            return Err(Refusal::unusable(&problems));
+        };
         for (first, second) in collisions.iter().flat_map(|c| c.left_out()) {
             let message = format!("{first} and {second} overlap with all axes at 0: not watched");
             let place = question.machine.place();
@@ -50,7 +52,7 @@ impl Request for SimulateRequest {
         let mut recorder =
             Recorder::of(&simulation.machine, &simulation.setup, &simulation.options);
         let mut observers: [&mut dyn Observer; 2] = [&mut progress, &mut recorder];
-        let found = simulation.run(collisions, &mut observers);
+        let found = simulation.run_on(collisions, machining, &mut observers);
         if found.run.stopped {
             let message = "the simulation was stopped";
             return Err(Refusal::new(409, "stopped", message, "simulate again"));

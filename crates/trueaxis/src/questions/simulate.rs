@@ -10,7 +10,7 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use table::{PathTable, bodies_table};
 use trueaxis_input::{Diagnostics, Files, Place};
-use trueaxis_motion::{Findings, Job, Observer, Progress, Series};
+use trueaxis_motion::{Collisions, Findings, Job, Machining, Observer, Progress, Series};
 use trueaxis_report::{Report, document};
 
 /// An NC program on the actual machine: path, time, deviations, issues.
@@ -28,6 +28,8 @@ pub struct Simulate {
     pub pictures: bool,
     /// Without the collision check.
     pub no_collisions: bool,
+    /// Whether the stock of the set-up is cut; one with a stated resolution always is.
+    pub stock: bool,
 }
 
 /// A program with what it did.
@@ -48,6 +50,32 @@ impl Simulate {
             true => job,
             false => job.with_models(&self.machine.file, problems),
         })
+    }
+}
+
+impl Simulate {
+    /// What looks on for collisions, and the stock before the first cut: on request, or where the set-up states its resolution. Then what goes through
+    /// stock and part is asked of the stock as it is at its time.
+    pub fn watchers(
+        &self,
+        job: &Job,
+        problems: &mut Diagnostics,
+    ) -> Option<(Option<Collisions>, Option<Machining>)> {
+        let is_cut = self.stock || job.setup.stock_resolution_mm.is_some();
+        let machining = match is_cut.then(|| Machining::watch(&job.setup)) {
+            None => None,
+            Some(Ok(machining)) => Some(machining),
+            Some(Err((message, hint))) => {
+                problems.error("no-stock", Place::whole(job.program.file()), message, &hint);
+                return None;
+            }
+        };
+        let collisions = match (self.no_collisions, is_cut) {
+            (true, _) => None,
+            (false, true) => job.collisions_beside_stock(),
+            (false, false) => job.collisions(),
+        };
+        Some((collisions, machining))
     }
 }
 
@@ -81,7 +109,7 @@ impl Question for Simulate {
             path.as_ref().map(|(path, part)| PathTable::begin(&job.machine, path, part));
         let mut bodies_table = bodies.as_ref().map(|(_, part)| bodies_table(part));
         let mut series = self.pictures.then(|| Series::of(&job.machine));
-        let collisions = if self.no_collisions { None } else { job.collisions() };
+        let (collisions, machining) = self.watchers(&job, problems)?;
         let left_out = collisions.iter().flat_map(|c| c.left_out());
         let note = |(first, second): (&str, &str)| {
             format!(
@@ -94,7 +122,7 @@ impl Question for Simulate {
         observers.extend(series.as_mut().map(|series| series as &mut dyn Observer));
         observers.extend(table.as_mut().map(PathTable::observer));
         observers.extend(bodies_table.as_mut().map(|bodies| bodies as &mut dyn Observer));
-        let found = job.run(collisions, &mut observers);
+        let found = job.run_on(collisions, machining, &mut observers);
         drop(observers);
         drop(followed);
         problems.append(found.run.problems.clone());

@@ -1,0 +1,366 @@
+//! What the tools of a program take off the stock, and what they must not touch.
+//!
+//! ```text
+//! SetUp { [stock], [part], tools } ──Machining::watch──> Observer
+//!     nominal poses of each tool, no farther apart than the stock resolves ──trueaxis_cut::stock──> removed, by block
+//!     rapid through material, shank in material, gouges of the part ──> issues
+//! ```
+
+use super::collide::{BodyModel, Role};
+use super::issues::{IssueKind, Log};
+use super::setup::{SetUp, SetUpTool};
+use super::{Batch, Observer};
+use std::collections::BTreeMap;
+use trueaxis_cut::stock::{Step, Stock, StockError, Taken};
+use trueaxis_cut::{Cutter, ToolPose};
+use trueaxis_geometry::frame::Point;
+use trueaxis_geometry::{Vec3, angle};
+use trueaxis_input::{Diagnostics, Place};
+use trueaxis_nc::moves::Origin;
+
+/// What goes less deep is no contact: between two poses a cutter leaves walls that are rough by far less. Unit: mm.
+const CONTACT_MM: f64 = 0.05;
+/// Poses of one tool that are cut together.
+const CHUNK: usize = 4096;
+/// How issues call it.
+const STOCK: &str = "stock";
+/// Without a stated resolution the longest edge of the stock has so many lines.
+const LINES: f64 = 200.0;
+
+/// A tool as the stock sees it.
+struct Tool {
+    name: String,
+    cutter: Cutter,
+    /// What does not cut: where it begins along the axis, and its shape.
+    above: Vec<(f64, Cutter)>,
+    /// From the tip to its farthest point.
+    reach_mm: f64,
+}
+
+/// What the stock is asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Question {
+    /// Whether what does not cut is in it.
+    Shank,
+    /// Whether the cutter is in it in rapid.
+    Rapid,
+    /// What the cutter takes.
+    Taken,
+}
+
+/// A pose on its way to the stock.
+#[derive(Clone, Copy)]
+struct Moment {
+    origin: Origin,
+    time_s: f64,
+    /// How long the step to it takes.
+    lasts_s: f64,
+    is_rapid: bool,
+}
+
+/// What a block took.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BlockUse {
+    /// Volume, mm³.
+    pub removed_mm3: f64,
+    /// With feed in material, s.
+    pub cutting_s: f64,
+    /// With feed in the air, s.
+    pub air_s: f64,
+}
+
+/// What became of the stock.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Machined {
+    /// How finely the stock was kept, mm.
+    pub resolution_mm: f64,
+    /// Its volume before the first cut, mm³.
+    pub before_mm3: f64,
+    /// What remains, by the lines along X, Y and Z, mm³.
+    pub left_mm3: [f64; 3],
+    /// What was cut from the part, mm³; none without a part in the set-up. Unit: mm³.
+    pub gouged_mm3: Option<f64>,
+    /// What remains beside the part, mm³; none without a part in the set-up. Unit: mm³.
+    pub excess_mm3: Option<f64>,
+    /// What every block took, in the order of programs and lines.
+    pub blocks: Vec<(Origin, BlockUse)>,
+}
+
+impl Machined {
+    /// What remains, mm³.
+    pub fn volume_mm3(&self) -> f64 {
+        self.left_mm3.iter().sum::<f64>() / 3.0
+    }
+
+    /// How far the three directions differ about their mean: what the resolution costs, mm³.
+    pub fn spread_mm3(&self) -> f64 {
+        let mean = self.volume_mm3();
+        self.left_mm3.iter().map(|v| (v - mean).abs()).fold(0.0, f64::max)
+    }
+
+    /// All blocks together.
+    pub fn total(&self) -> BlockUse {
+        self.blocks.iter().fold(BlockUse::default(), |sum, (_, one)| BlockUse {
+            removed_mm3: sum.removed_mm3 + one.removed_mm3,
+            cutting_s: sum.cutting_s + one.cutting_s,
+            air_s: sum.air_s + one.air_s,
+        })
+    }
+}
+
+/// Cuts the stock of a set-up along the nominal path of a program.
+pub struct Machining {
+    stock: Stock,
+    before_mm3: f64,
+    tools: BTreeMap<u32, Result<Tool, String>>,
+    spacing_mm: f64,
+    tool: u32,
+    before: Option<(ToolPose, f64)>,
+    poses: Vec<ToolPose>,
+    moments: Vec<Moment>,
+    /// What every block took, by program and line.
+    blocks: BTreeMap<(u32, u32), BlockUse>,
+    gouged_mm3: f64,
+    /// Tools whose shape is not known, with the block where they come and the reason.
+    unknown: BTreeMap<u32, (Origin, String)>,
+    /// The issues that were found.
+    pub log: Log,
+}
+
+impl Machining {
+    /// The stock of a set-up.
+    ///
+    /// # Errors
+    /// No stock, one that is not closed, a resolution that is none; in words, with what to do.
+    pub fn watch(setup: &SetUp) -> Result<Self, (String, String)> {
+        let body = |role: Role| setup.bodies.iter().find(|b| b.role == role);
+        let stock = body(Role::Stock).ok_or_else(|| {
+            let hint = "[stock] with box = { … }, cylinder, or stl = \"blank.stl\", in the workpiece frame";
+            ("the set-up file states no stock".to_owned(), hint.to_owned())
+        })?;
+        let triangles = placed(stock);
+        let resolution_mm = setup.stock_resolution_mm.unwrap_or_else(|| usual(&triangles));
+        let refused = |name: &str, error: StockError| {
+            let hint = "a closed mesh in mm, and a `resolution` of [stock] such as \"0.5 mm\"";
+            (format!("{name}: {error}"), hint.to_owned())
+        };
+        let mut cut =
+            Stock::of_mesh(&triangles, resolution_mm).map_err(|e| refused(&stock.name, e))?;
+        if let Some(part) = body(Role::Part) {
+            cut = cut.with_part(&placed(part)).map_err(|e| refused(&part.name, e))?;
+        }
+        let tools = setup.tools.iter().map(|(number, tool)| (*number, Tool::of(*number, tool)));
+        Ok(Self {
+            before_mm3: cut.volume_mm3(),
+            stock: cut,
+            tools: tools.collect(),
+            spacing_mm: 0.6 * resolution_mm,
+            tool: 0,
+            before: None,
+            poses: Vec::new(),
+            moments: Vec::new(),
+            blocks: BTreeMap::new(),
+            gouged_mm3: 0.0,
+            unknown: BTreeMap::new(),
+            log: Log::default(),
+        })
+    }
+
+    /// What became of the stock, after the last pose.
+    pub fn machined(&mut self) -> Machined {
+        self.finish();
+        let excess_mm3 = self.stock.excess_mm3();
+        let origin = |(program, line): (u32, u32)| Origin { program, line };
+        Machined {
+            resolution_mm: self.stock.resolution_mm(),
+            before_mm3: self.before_mm3,
+            left_mm3: self.stock.volumes_mm3(),
+            gouged_mm3: excess_mm3.map(|_| self.gouged_mm3),
+            excess_mm3,
+            blocks: self.blocks.iter().map(|(at, block)| (origin(*at), *block)).collect(),
+        }
+    }
+
+    /// The errors that a tool of unknown shape came; `programs` are those of the run.
+    pub fn problems(&self, programs: &[String]) -> Diagnostics {
+        let mut problems = Diagnostics::new();
+        for (number, (origin, why)) in &self.unknown {
+            let file = programs.get(origin.program as usize).cloned().unwrap_or_default();
+            let place = Place { file, line: origin.line as usize, column: 1 };
+            let message = format!("tool {number} comes, and what it cuts is not known: {why}");
+            let hint = "state diameter, corner_radius and, where it is another, the cutter of the tool in the set-up file";
+            problems.error("unknown-cutter", place, message, hint);
+        }
+        problems
+    }
+
+    /// Cuts by the poses that are still waiting.
+    fn finish(&mut self) {
+        let poses = std::mem::take(&mut self.poses);
+        let moments = std::mem::take(&mut self.moments);
+        let Some(Ok(tool)) = self.tools.get(&self.tool) else { return };
+        let mut steps = Vec::with_capacity(2 * poses.len());
+        let mut questions = Vec::with_capacity(2 * poses.len());
+        for (pose, moment) in poses.iter().zip(&moments) {
+            let mut ask = |question, cutter, pose: ToolPose| {
+                let takes = question == Question::Taken;
+                let inset_mm = if takes { 0.0 } else { CONTACT_MM };
+                steps.push(Step { cutter, pose, inset_mm, takes });
+                questions.push((question, *moment));
+            };
+            for (at_mm, body) in &tool.above {
+                let tip_mm = pose.tip_mm + pose.axis * *at_mm;
+                ask(Question::Shank, body, ToolPose { tip_mm, ..*pose });
+            }
+            if moment.is_rapid {
+                ask(Question::Rapid, &tool.cutter, *pose);
+            }
+            ask(Question::Taken, &tool.cutter, *pose);
+        }
+        let found = self.stock.work(&steps);
+        let name = tool.name.clone();
+        for (taken, (question, moment)) in found.iter().zip(questions) {
+            self.answer(question, &moment, taken, &name);
+        }
+    }
+
+    fn answer(&mut self, question: Question, moment: &Moment, taken: &Taken, tool: &str) {
+        let at = (moment.origin, moment.time_s);
+        let is_inside = taken.longest_mm > 0.0;
+        match question {
+            Question::Shank if is_inside => {
+                let first = format!("shank of {tool}");
+                self.log.note_at(
+                    IssueKind::Collision { first, second: STOCK.to_owned() },
+                    at,
+                    0.0,
+                    0.0,
+                );
+            }
+            Question::Rapid if is_inside => {
+                let first = tool.to_owned();
+                self.log.note_at(
+                    IssueKind::RapidInStock { first, second: STOCK.to_owned() },
+                    at,
+                    0.0,
+                    0.0,
+                );
+            }
+            Question::Shank | Question::Rapid => {}
+            Question::Taken => {
+                self.count(taken, moment);
+                self.log.close(moment.time_s);
+            }
+        }
+    }
+
+    fn count(&mut self, taken: &Taken, moment: &Moment) {
+        let Origin { program, line } = moment.origin;
+        let block = self.blocks.entry((program, line)).or_default();
+        block.removed_mm3 += taken.mean_mm3();
+        if !moment.is_rapid {
+            match taken.longest_mm > 0.0 {
+                true => block.cutting_s += moment.lasts_s,
+                false => block.air_s += moment.lasts_s,
+            }
+        }
+        self.gouged_mm3 += taken.gouged_mm3.iter().sum::<f64>() / 3.0;
+        if taken.gouge_mm > CONTACT_MM {
+            let kind = IssueKind::Gouge { tool: self.tool };
+            self.log.note_at(kind, (moment.origin, moment.time_s), taken.gouge_mm, 0.0);
+        }
+    }
+
+    /// Poses from the last one to a new one, no farther apart than the stock resolves.
+    fn go(&mut self, to: ToolPose, time_s: f64, origin: Origin, is_rapid: bool) {
+        let Some((from, from_s)) = self.before.replace((to, time_s)) else { return };
+        let reach_mm = match self.tools.get(&self.tool) {
+            Some(Ok(tool)) => tool.reach_mm,
+            _ => return,
+        };
+        let way_mm = (to.tip_mm - from.tip_mm).norm();
+        let turned_mm = reach_mm * angle(&from.axis, &to.axis);
+        let count = ((way_mm + turned_mm) / self.spacing_mm).ceil().max(1.0);
+        let lasts_s = (time_s - from_s) / count;
+        for k in 1..=count as usize {
+            let part = k as f64 / count;
+            let axis = from.axis + (to.axis - from.axis) * part;
+            let tip_mm = from.tip_mm + (to.tip_mm - from.tip_mm) * part;
+            self.poses.push(ToolPose { tip_mm, axis: axis.normalize() });
+            let time_s = from_s + (time_s - from_s) * part;
+            self.moments.push(Moment { origin, time_s, lasts_s, is_rapid });
+            if self.poses.len() >= CHUNK {
+                self.finish();
+            }
+        }
+    }
+
+    /// Another tool comes; its way to its first place is not one of it.
+    fn change(&mut self, number: u32, origin: Origin) {
+        self.finish();
+        self.tool = number;
+        self.before = None;
+        match self.tools.get(&number) {
+            Some(Ok(_)) => {}
+            Some(Err(why)) => {
+                self.unknown.entry(number).or_insert((origin, why.clone()));
+            }
+            // Without a tool nothing is in the spindle.
+            None if number == 0 => {}
+            None => {
+                let why = "the set-up file does not state it".to_owned();
+                self.unknown.entry(number).or_insert((origin, why));
+            }
+        }
+    }
+}
+
+impl Observer for Machining {
+    fn path(&mut self, batch: &Batch<'_>) {
+        for (i, (node, stamp)) in batch.nodes.iter().zip(batch.stamps).enumerate() {
+            if batch.tool != self.tool {
+                self.change(batch.tool, node.origin);
+            }
+            let there = batch.deviation(i);
+            let (tip_mm, axis) = (there.nominal_tip.vector(), there.nominal_axis.vector());
+            self.go(ToolPose { tip_mm, axis }, stamp.time_s, node.origin, node.is_rapid());
+        }
+    }
+}
+
+impl Tool {
+    fn of(number: u32, tool: &SetUpTool) -> Result<Self, String> {
+        let cutter = tool.cutter()?;
+        let length_mm = -tool.tip_mm.z;
+        let mut above = Vec::new();
+        let mut at_mm = cutter.height_mm();
+        // Cylinders above the one that cuts; without them the shank is as thick as the cutter.
+        for segment in tool.shape.iter().skip(1) {
+            let body = Cutter::flat(segment.diameter_mm, segment.length_mm);
+            above.push((at_mm, body.map_err(|e| e.to_string())?));
+            at_mm += segment.length_mm;
+        }
+        if tool.shape.is_empty() && length_mm > at_mm {
+            let body = Cutter::flat(2.0 * cutter.widest_mm(), length_mm - at_mm);
+            above.push((at_mm, body.map_err(|e| e.to_string())?));
+        }
+        let name = match tool.name.is_empty() {
+            true => format!("tool {number}"),
+            false => tool.name.clone(),
+        };
+        Ok(Self { name, cutter, above, reach_mm: length_mm.max(at_mm) })
+    }
+}
+
+/// The triangles of a body in the workpiece frame.
+fn placed(body: &BodyModel) -> Vec<[Vec3; 3]> {
+    let at = |p: &Vec3| (body.placement * Point::from_vector(*p)).vector();
+    body.mesh.triangles().iter().map(|t| [at(&t[0]), at(&t[1]), at(&t[2])]).collect()
+}
+
+fn usual(triangles: &[[Vec3; 3]]) -> f64 {
+    let corners = || triangles.iter().flatten();
+    let low = corners().fold(Vec3::repeat(f64::MAX), |a, b| a.inf(b));
+    let high = corners().fold(Vec3::repeat(f64::MIN), |a, b| a.sup(b));
+    ((high - low).max() / LINES).max(0.1)
+}

@@ -1,0 +1,179 @@
+//! Stock along programs: volumes by hand, what must not touch it, and whatever should not matter.
+
+mod library;
+
+use std::f64::consts::PI;
+use std::path::{Path, PathBuf};
+use trueaxis::input::{Diagnostics, Files};
+use trueaxis::machine::Machine;
+use trueaxis::simulate::report::issue_code;
+use trueaxis::simulate::{
+    Densify, Findings, Job, Machined, Machining, Options, ProgramFiles, Timing,
+};
+
+const MILL: &str = "[machine]\nname = \"mill\"\nchain = \"w b X Y Z t\"\n\
+    [axis.X]\nmax_velocity = \"30 m/min\"\nmax_acceleration = \"3 m/s^2\"\nmax_jerk = \"30 m/s^3\"\n\
+    [axis.Y]\nmax_velocity = \"30 m/min\"\nmax_acceleration = \"3 m/s^2\"\nmax_jerk = \"30 m/s^3\"\n\
+    [axis.Z]\nmax_velocity = \"30 m/min\"\nmax_acceleration = \"3 m/s^2\"\nmax_jerk = \"30 m/s^3\"\n";
+
+/// A block of 80 × 50 × 20 mm under the zero, in the middle of it.
+const SET_UP: &str = "control = \"fanuc\"\nworkpiece_at = \"G54\"\n[work_offset.G54]\nX = \"300 mm\"\nY = \"200 mm\"\nZ = \"-300 mm\"\n\
+    [tool.1]\nname = \"end mill 10\"\nlength = \"90 mm\"\ndiameter = \"10 mm\"\n\
+    [stock]\nbox = \"80 50 20 mm\"\nplacement = \"0 0 -10 mm\"\nresolution = \"0.5 mm\"\n";
+
+fn program(blocks: &str) -> String {
+    format!(
+        "%\nO1\nG21 G17 G40 G80 G90 G94\nT1 M6\nG54 G0 X-60. Y0. S8000 M3\nG43 Z5. H1\n{blocks}M30\n%\n"
+    )
+}
+
+fn job(set_up: &str, program: &str, options: Options) -> Job {
+    let texts = [("m.toml", MILL), ("p.nc", program), ("p.setup.toml", set_up)];
+    let texts = texts.iter().map(|(name, text)| (PathBuf::from(name), (*text).to_owned()));
+    let files = Files::none().with_texts(texts);
+    let (machine, mut problems) = Machine::read(&files, Path::new("m.toml"));
+    let path = Path::new("p.nc");
+    let set_up = Path::new("p.setup.toml");
+    let files = ProgramFiles {
+        files: &files,
+        program: path,
+        text: None,
+        setup: Some(set_up),
+        control: None,
+    };
+    let job = machine.and_then(|m| Job::read(m, &files, options, &mut problems));
+    job.unwrap_or_else(|| panic!("{:?}", words(&problems)))
+}
+
+fn words(problems: &Diagnostics) -> Vec<String> {
+    problems.iter().map(|p| format!("{}: {} ({})", p.code, p.message, p.hint)).collect()
+}
+
+fn run_by(set_up: &str, blocks: &str, options: Options) -> Findings {
+    let job = job(set_up, &program(blocks), options);
+    let machining = Machining::watch(&job.setup).expect("a stock");
+    let found = job.run_on(job.collisions_beside_stock(), Some(machining), &mut []);
+    assert!(!found.run.problems.has_errors(), "{:?}", words(&found.run.problems));
+    found
+}
+
+fn run(blocks: &str) -> Findings {
+    run_by(SET_UP, blocks, Options::default())
+}
+
+fn machined(found: &Findings) -> &Machined {
+    found.machined.as_ref().expect("a stock")
+}
+
+/// The critical issues by code and line.
+fn critical(found: &Findings) -> Vec<(&'static str, u32)> {
+    let list = found.issues.list.iter().filter(|i| i.critical);
+    list.map(|i| (issue_code(&i.kind), i.first.line)).collect()
+}
+
+fn near(found: f64, due: f64, part: f64) {
+    assert!((found / due - 1.0).abs() < part, "{found} {due}");
+}
+
+const SLOT: &str = "G1 Z-4. F2000\nG1 X60. F1200\nG0 Z5.\n";
+
+/// A slot of 10 × 4 mm along the block: 3,200 mm³ by the block that goes along it; a second pass is air; the way in and out is air, too.
+#[test]
+fn law_a_slot_by_hand() {
+    let found = run(SLOT);
+    let (all, total) = (machined(&found), machined(&found).total());
+    near(all.before_mm3, 80.0 * 50.0 * 20.0, 1e-9);
+    near(total.removed_mm3, 80.0 * 10.0 * 4.0, 2e-3);
+    near(all.before_mm3 - all.volume_mm3(), total.removed_mm3, 1e-9);
+    assert!(all.spread_mm3() < 2e-3 * 3200.0, "{}", all.spread_mm3());
+    let slot = all.blocks.iter().find(|(at, _)| at.line == 8).expect("line 8").1;
+    near(slot.removed_mm3, total.removed_mm3, 1e-9);
+    // Of the 120 mm its front takes something from 45 mm before the middle to 40 mm after it; it is faster there than at the ends.
+    near(slot.cutting_s / (slot.cutting_s + slot.air_s), 85.0 / 120.0, 0.02);
+    assert!(critical(&found).is_empty(), "{:?}", critical(&found));
+    let twice = run(&format!("{SLOT}G0 X-60.\nG1 Z-4.\nG1 X60.\nG0 Z5.\n"));
+    let second = machined(&twice).blocks.iter().find(|(at, _)| at.line == 12).expect("line 12").1;
+    assert!(second.removed_mm3 < 1.0 && second.cutting_s == 0.0, "{second:?}");
+}
+
+/// In rapid through what is there is an issue at its block; through what is cut away it is none.
+#[test]
+fn law_rapid_is_allowed_where_nothing_is_left() {
+    let there = run("G1 Z-4. F2000\nG0 X60.\nG0 Z5.\n");
+    assert_eq!(critical(&there), [("rapid-in-stock", 8)]);
+    let gone = run(&format!("{SLOT}G0 X-60.\nG1 Z-4.\nG0 X60.\nG0 Z5.\n"));
+    assert!(critical(&gone).is_empty(), "{:?}", critical(&gone));
+    // 0.4 mm deeper than the slot; a retreat out of the slot.
+    let deeper = run(&format!("{SLOT}G0 X-60.\nG1 Z-4.4\nG0 X60.\nG0 Z5.\n"));
+    assert_eq!(critical(&deeper), [("rapid-in-stock", 12)]);
+    let out = run("G1 Z-4. F2000\nG1 X0. F1200\nG0 Z5.\nG0 X60.\n");
+    assert!(critical(&out).is_empty(), "{:?}", critical(&out));
+}
+
+/// A shank that is thicker than its cutter rubs in a slot that is deeper than the cutter is long.
+#[test]
+fn law_a_shank_rubs_in_a_deep_slot() {
+    let set_up = SET_UP.replace(
+        "diameter = \"10 mm\"\n",
+        "diameter = \"10 mm\"\nshape = [[\"10 mm\", \"6 mm\"], [\"12 mm\", \"84 mm\"]]\n",
+    );
+    let down = |z: f64| format!("G1 Z{z:.1} F2000\nG1 X60. F1200\nG0 Z5.\nG0 X-60.\n");
+    let shallow = run_by(&set_up, &down(-5.5), Options::default());
+    assert!(critical(&shallow).is_empty(), "{:?}", critical(&shallow));
+    let deep = run_by(&set_up, &format!("{}{}", down(-5.5), down(-7.0)), Options::default());
+    assert_eq!(critical(&deep), [("collision", 12)]);
+}
+
+/// A part within the stock: 0.5 mm into its top is a gouge at its block; what stays around it is excess.
+#[test]
+fn law_a_gouge_by_hand() {
+    let set_up = SET_UP.to_owned() + "[part]\nbox = \"80 50 16 mm\"\nplacement = \"0 0 -12 mm\"\n";
+    let good = run_by(&set_up, SLOT, Options::default());
+    assert!(critical(&good).is_empty(), "{:?}", critical(&good));
+    near(machined(&good).excess_mm3.expect("a part"), 80.0 * 40.0 * 4.0, 1e-3);
+    assert!(machined(&good).gouged_mm3.expect("a part") < 1e-6);
+    let deep = run_by(&set_up, &SLOT.replace("Z-4.", "Z-4.5"), Options::default());
+    assert_eq!(critical(&deep), [("gouged-part", 8)]);
+    let depth = deep.issues.list.iter().find(|i| i.critical).expect("an issue").value;
+    assert!((depth - 0.5).abs() < 1e-6, "{depth}");
+    near(machined(&deep).gouged_mm3.expect("a part"), 80.0 * 10.0 * 0.5, 0.02);
+}
+
+/// Chord, spacing, timing, incremental or absolute, a move in two: nothing changes what is removed; a finer stock brings it nearer to a bore by hand.
+#[test]
+fn law_what_should_not_matter_to_a_program() {
+    let bore = "G0 X8. Y0.\nG1 Z-6. F300\nG3 I-8. F900\nG1 X0.\nG0 Z5.\n";
+    let volume = |blocks: &str, options: Options| {
+        machined(&run_by(SET_UP, blocks, options)).total().removed_mm3
+    };
+    let due = PI * 13.0 * 13.0 * 6.0;
+    let found = volume(bore, Options::default());
+    near(found, due, 4e-3);
+    let fine = Densify::Tolerance { chord_mm: 1e-4, angle_rad: 0.01, spacing_mm: 1.0 };
+    near(volume(bore, Options { densify: fine, ..Options::default() }), found, 1e-3);
+    let phases = Timing::ThreePhase { acceleration: 500.0, smooth: false };
+    near(volume(bore, Options { timing: phases, ..Options::default() }), found, 1e-9);
+    let incremental = "G91\nG0 X68. Y0.\nG1 Z-11. F300\nG3 I-8. F900\nG1 X-8.\nG0 Z11.\nG90\n";
+    near(volume(incremental, Options::default()), found, 1e-9);
+    let halves = bore.replace("G3 I-8. F900\n", "G3 X-8. I-8. F900\nG3 X8. I8.\n");
+    near(volume(&halves, Options::default()), found, 1e-3);
+    let fine = SET_UP.replace("0.5 mm", "0.2 mm");
+    near(machined(&run_by(&fine, bore, Options::default())).total().removed_mm3, due, 1e-3);
+}
+
+#[test]
+fn what_cannot_be_cut_is_refused() {
+    let refused = |set_up: &str| {
+        let job = job(set_up, &program(SLOT), Options::default());
+        Machining::watch(&job.setup).err().map(|(message, _)| message).unwrap_or_default()
+    };
+    let without = SET_UP.split("[stock]").next().expect("a set-up");
+    assert!(refused(without).contains("states no stock"));
+    assert!(refused(&SET_UP.replace("0.5 mm", "0.00001 mm")).contains("lines"));
+    // A tool without a diameter.
+    let job =
+        job(&SET_UP.replace("diameter = \"10 mm\"\n", ""), &program(SLOT), Options::default());
+    let machining = Machining::watch(&job.setup).expect("a stock");
+    let found = job.run_on(None, Some(machining), &mut []);
+    assert!(found.run.problems.iter().any(|p| p.code == "unknown-cutter"));
+}
