@@ -33,6 +33,13 @@ KINDS = [
     ("tolerances of a test piece", "testpieces/gbt33150-tolerances.toml", "predict made/toleranced.toml"),
     ("study of holes", "03/torque-arm.toml", "predict 03/torque-arm.toml"),
     ("readings of a set-up", "03/nas979-set-up-readings.toml", "predict 03/nas979-set-up.toml"),
+    ("study of a part", "03/housing.toml", "predict 03/housing.toml"),
+    ("part file", "parts/housing.toml", "predict 03/housing.toml"),
+    ("part file by its program", "parts/impeller-blade.toml", "predict 03/blade.toml"),
+    ("points of a part", "parts/s-shape-a.csv", "predict 03/s-shape.toml"),
+    ("set-up of a part", "03/s-shape.setup.toml", "predict 03/s-shape.toml"),
+    ("set-up with stock", "02/ring-fanuc.setup.toml", f"simulate {I5} 02/ring-fanuc.nc --stock"),
+    ("STL of a stock", "made/blank.stl", f"simulate {I5} 02/ring-fanuc.nc --setup made/blank.setup.toml --stock"),
     ("campaign, plan", "04/probe-ball.toml", "plan 04/probe-ball.toml"),
     ("campaign, measure", "04/laser-gantry.toml", "measure 04/laser-gantry.toml -o out/readings"),
     ("poses", "07/probe-ball-poses.csv", "measure 07/probe-ball-campaign.toml -o out/readings"),
@@ -191,6 +198,9 @@ def prepare(tree, program):
     setup = read("02/collision-fanuc.setup.toml")
     for name, stl in (("text-stl", "block.stl"), ("binary-stl", "binary.stl")):
         write(f"{name}.setup.toml", f'{setup}\n[[fixture]]\nname = "block"\nstl = "{stl}"\nplacement = "-10 -10 0 mm"\n')
+    blank = read("02/ring-fanuc.setup.toml").replace('cylinder = { diameter = "60 mm", length = "34 mm" }', 'stl = "blank.stl"')
+    write("blank.setup.toml", blank)
+    write("blank.stl", f"solid block\n{facets}endsolid block\n")
     write("archive.ini", '$TC_TP2[3]="MILL 10"\n$TC_DP1[3,1]=120\n$TC_DP3[3,1]=50.5\n$TC_DP6[3,1]=5\n$P_UIFR[1]=CTRANS(X,300,Y,200,Z,-300)\n')
     write("archive.setup.toml", 'control = "sinumerik"\narchive = "archive.ini"\n')
     write("archive.mpf", 'T="MILL 10" D1\nM6\nG54 G17 G90 G0 X0 Y0 Z50\nG1 Z10 F500\nX40 Y20\nG2 X60 Y40 I0 J20\nM30\n')

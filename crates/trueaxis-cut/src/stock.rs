@@ -9,6 +9,7 @@
 
 mod line;
 mod scan;
+mod surface;
 
 use crate::Cutter;
 use crate::motion::ToolPose;

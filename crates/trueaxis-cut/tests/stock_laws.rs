@@ -135,6 +135,31 @@ fn poses() -> impl Strategy<Value = Vec<ToolPose>> {
     prop::collection::vec(one, 1..12)
 }
 
+/// The surface of what remains is closed, and encloses the volume of it to the coarseness of its lattice.
+#[test]
+fn law_the_surface_encloses_what_remains() {
+    let mut stock = block(0.5);
+    let ball = Cutter::ball(12.0, 40.0).expect("a ball");
+    let poses: Vec<ToolPose> = (0..=100).map(|k| pose(0.4 * f64::from(k), 15.0, 4.0)).collect();
+    stock.cut(&ball, &poses);
+    for most in [usize::MAX, 20_000] {
+        let surface = stock.surface(most);
+        let mut edges = std::collections::BTreeMap::new();
+        let key = |p: &Vec3| [p.x.to_bits(), p.y.to_bits(), p.z.to_bits()];
+        let mut six_volumes = 0.0;
+        for [a, b, c] in &surface {
+            six_volumes += a.dot(&b.cross(c));
+            for (p, q) in [(a, b), (b, c), (c, a)] {
+                *edges.entry((key(p), key(q))).or_insert(0) += 1;
+                *edges.entry((key(q), key(p))).or_insert(0) -= 1;
+            }
+        }
+        assert!(edges.values().all(|count| *count == 0), "{most}: open");
+        let part = six_volumes / 6.0 / stock.volume_mm3();
+        assert!((part - 1.0).abs() < 0.03, "{most}: {part}, {} triangles", surface.len());
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 

@@ -6,7 +6,7 @@
 //!     rapid through material, shank in material, gouges of the part ──> issues
 //! ```
 
-use super::collide::{BodyModel, Role};
+use super::collide::{BodyModel, Mesh, Role};
 use super::issues::{IssueKind, Log};
 use super::setup::{SetUp, SetUpTool};
 use super::{Batch, Observer};
@@ -16,6 +16,7 @@ use trueaxis_cut::{Cutter, ToolPose};
 use trueaxis_geometry::frame::Point;
 use trueaxis_geometry::{Vec3, angle};
 use trueaxis_input::{Diagnostics, Place};
+use trueaxis_machine::chain::Link;
 use trueaxis_nc::moves::Origin;
 
 /// What goes less deep is no contact: between two poses a cutter leaves walls that are rough by far less. Unit: mm.
@@ -24,6 +25,10 @@ const CONTACT_MM: f64 = 0.05;
 const CHUNK: usize = 4096;
 /// How issues call it.
 const STOCK: &str = "stock";
+/// Poses of a whole program: some minutes of work.
+const MOST_POSES: usize = 50_000_000;
+/// Places of the lattice of a picture.
+const MOST_PLACES: usize = 600_000;
 /// Without a stated resolution the longest edge of the stock has so many lines.
 const LINES: f64 = 200.0;
 
@@ -70,14 +75,12 @@ pub struct BlockUse {
 }
 
 /// What became of the stock.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Machined {
-    /// How finely the stock was kept, mm.
-    pub resolution_mm: f64,
+    /// What remains.
+    pub stock: Stock,
     /// Its volume before the first cut, mm³.
     pub before_mm3: f64,
-    /// What remains, by the lines along X, Y and Z, mm³.
-    pub left_mm3: [f64; 3],
     /// What was cut from the part, mm³; none without a part in the set-up. Unit: mm³.
     pub gouged_mm3: Option<f64>,
     /// What remains beside the part, mm³; none without a part in the set-up. Unit: mm³.
@@ -87,15 +90,24 @@ pub struct Machined {
 }
 
 impl Machined {
-    /// What remains, mm³.
-    pub fn volume_mm3(&self) -> f64 {
-        self.left_mm3.iter().sum::<f64>() / 3.0
+    /// The bodies on the workpiece with the stock as it remains; a picture of it has so many places.
+    pub fn bodies(&self, of: &[BodyModel]) -> Vec<BodyModel> {
+        let remains = |body: &BodyModel| {
+            let mesh = Mesh::new(self.stock.surface(MOST_PLACES))?;
+            let name = format!("{} as it remains", body.name);
+            Some(BodyModel { name, placement: Link::identity(), mesh, ..body.clone() })
+        };
+        let replaced = |body: &BodyModel| match body.role {
+            Role::Stock => remains(body),
+            _ => Some(body.clone()),
+        };
+        of.iter().filter_map(replaced).collect()
     }
 
     /// How far the three directions differ about their mean: what the resolution costs, mm³.
     pub fn spread_mm3(&self) -> f64 {
-        let mean = self.volume_mm3();
-        self.left_mm3.iter().map(|v| (v - mean).abs()).fold(0.0, f64::max)
+        let mean = self.stock.volume_mm3();
+        self.stock.volumes_mm3().iter().map(|v| (v - mean).abs()).fold(0.0, f64::max)
     }
 
     /// All blocks together.
@@ -114,6 +126,11 @@ pub struct Machining {
     before_mm3: f64,
     tools: BTreeMap<u32, Result<Tool, String>>,
     spacing_mm: f64,
+    /// Farther from its tip no tool is in the stock while its tip is near, mm.
+    diagonal_mm: f64,
+    /// How many poses there were, and where they became too many.
+    count: usize,
+    ended_at: Option<Origin>,
     tool: u32,
     before: Option<(ToolPose, f64)>,
     poses: Vec<ToolPose>,
@@ -155,6 +172,9 @@ impl Machining {
             stock: cut,
             tools: tools.collect(),
             spacing_mm: 0.6 * resolution_mm,
+            diagonal_mm: extent(&triangles).norm(),
+            count: 0,
+            ended_at: None,
             tool: 0,
             before: None,
             poses: Vec::new(),
@@ -172,9 +192,8 @@ impl Machining {
         let excess_mm3 = self.stock.excess_mm3();
         let origin = |(program, line): (u32, u32)| Origin { program, line };
         Machined {
-            resolution_mm: self.stock.resolution_mm(),
+            stock: self.stock.clone(),
             before_mm3: self.before_mm3,
-            left_mm3: self.stock.volumes_mm3(),
             gouged_mm3: excess_mm3.map(|_| self.gouged_mm3),
             excess_mm3,
             blocks: self.blocks.iter().map(|(at, block)| (origin(*at), *block)).collect(),
@@ -185,11 +204,18 @@ impl Machining {
     pub fn problems(&self, programs: &[String]) -> Diagnostics {
         let mut problems = Diagnostics::new();
         for (number, (origin, why)) in &self.unknown {
-            let file = programs.get(origin.program as usize).cloned().unwrap_or_default();
-            let place = Place { file, line: origin.line as usize, column: 1 };
+            let place = place_of(*origin, programs);
             let message = format!("tool {number} comes, and what it cuts is not known: {why}");
             let hint = "state diameter, corner_radius and, where it is another, the cutter of the tool in the set-up file";
             problems.error("unknown-cutter", place, message, hint);
+        }
+        if let Some(origin) = self.ended_at {
+            let place = place_of(origin, programs);
+            let message = format!(
+                "from this line on the stock was not cut: the tools pass through more than {MOST_POSES} places"
+            );
+            let hint = "check the units of tool lengths and offsets; a larger `resolution` of [stock] needs fewer places";
+            problems.error("stock-not-cut", place, message, hint);
         }
         problems
     }
@@ -275,12 +301,17 @@ impl Machining {
     fn go(&mut self, to: ToolPose, time_s: f64, origin: Origin, is_rapid: bool) {
         let Some((from, from_s)) = self.before.replace((to, time_s)) else { return };
         let reach_mm = match self.tools.get(&self.tool) {
-            Some(Ok(tool)) => tool.reach_mm,
+            Some(Ok(tool)) if self.ended_at.is_none() => tool.reach_mm.min(self.diagonal_mm),
             _ => return,
         };
         let way_mm = (to.tip_mm - from.tip_mm).norm();
         let turned_mm = reach_mm * angle(&from.axis, &to.axis);
         let count = ((way_mm + turned_mm) / self.spacing_mm).ceil().max(1.0);
+        if count > (MOST_POSES - self.count) as f64 {
+            self.ended_at = Some(origin);
+            return;
+        }
+        self.count += count as usize;
         let lasts_s = (time_s - from_s) / count;
         for k in 1..=count as usize {
             let part = k as f64 / count;
@@ -358,9 +389,18 @@ fn placed(body: &BodyModel) -> Vec<[Vec3; 3]> {
     body.mesh.triangles().iter().map(|t| [at(&t[0]), at(&t[1]), at(&t[2])]).collect()
 }
 
-fn usual(triangles: &[[Vec3; 3]]) -> f64 {
+fn place_of(origin: Origin, programs: &[String]) -> Place {
+    let file = programs.get(origin.program as usize).cloned().unwrap_or_default();
+    Place { file, line: origin.line as usize, column: 1 }
+}
+
+/// The edges of the box around triangles.
+fn extent(triangles: &[[Vec3; 3]]) -> Vec3 {
     let corners = || triangles.iter().flatten();
     let low = corners().fold(Vec3::repeat(f64::MAX), |a, b| a.inf(b));
-    let high = corners().fold(Vec3::repeat(f64::MIN), |a, b| a.sup(b));
-    ((high - low).max() / LINES).max(0.1)
+    corners().fold(Vec3::repeat(f64::MIN), |a, b| a.sup(b)) - low
+}
+
+fn usual(triangles: &[[Vec3; 3]]) -> f64 {
+    (extent(triangles).max() / LINES).max(0.1)
 }

@@ -84,7 +84,7 @@ fn law_a_slot_by_hand() {
     let (all, total) = (machined(&found), machined(&found).total());
     near(all.before_mm3, 80.0 * 50.0 * 20.0, 1e-9);
     near(total.removed_mm3, 80.0 * 10.0 * 4.0, 2e-3);
-    near(all.before_mm3 - all.volume_mm3(), total.removed_mm3, 1e-9);
+    near(all.before_mm3 - all.stock.volume_mm3(), total.removed_mm3, 1e-9);
     assert!(all.spread_mm3() < 2e-3 * 3200.0, "{}", all.spread_mm3());
     let slot = all.blocks.iter().find(|(at, _)| at.line == 8).expect("line 8").1;
     near(slot.removed_mm3, total.removed_mm3, 1e-9);

@@ -65,9 +65,9 @@ impl From<&Machined> for StockEntry {
             air_s: block.air_s,
         };
         Self {
-            resolution_mm: machined.resolution_mm,
+            resolution_mm: machined.stock.resolution_mm(),
             before_mm3: machined.before_mm3,
-            left_mm3: machined.volume_mm3(),
+            left_mm3: machined.stock.volume_mm3(),
             spread_mm3: machined.spread_mm3(),
             removed_mm3: total.removed_mm3,
             cutting_s: total.cutting_s,
@@ -94,7 +94,7 @@ pub(super) fn stock_section(s: &Simulation<'_>, machined: &Machined) -> Section<
         .row(["removed".to_owned(), cm3(total.removed_mm3), "cm³".to_owned()])
         .row([
             "remains".to_owned(),
-            format!("{} ± {}", cm3(machined.volume_mm3()), cm3(machined.spread_mm3())),
+            format!("{} ± {}", cm3(machined.stock.volume_mm3()), cm3(machined.spread_mm3())),
             "cm³".to_owned(),
         ])
         .row(["with feed in material".to_owned(), clock(total.cutting_s), String::new()])
@@ -112,7 +112,7 @@ pub(super) fn stock_section(s: &Simulation<'_>, machined: &Machined) -> Section<
     }
     let note = format!(
         "Kept on lines {} mm apart along X, Y and Z; ± is how far their three volumes differ. Nominal machine.",
-        machined.resolution_mm
+        machined.stock.resolution_mm()
     );
     let mut order: Vec<&(Origin, BlockUse)> =
         machined.blocks.iter().filter(|(_, b)| b.removed_mm3 > 0.0).collect();

@@ -180,15 +180,18 @@ fn opening(section: &Section<'_>, normal: Vec3, along: Vec3) -> Option<Opening> 
     Some(Opening { at_mm: Vec3::from(at?), edges, normal, half_mm, is_round })
 }
 
-/// Some 20 points along the longer side.
+/// Some 20 points along the longer side, 36 to 72 around.
 fn usual_spacing(geometry: &Geometry) -> f64 {
+    // Five sections where that does not crowd the points of each: short cylinders have fewer.
+    let round = |radius_mm: f64, length_mm: f64| {
+        let around = PI * radius_mm / 18.0;
+        around.min((0.2 * length_mm).max(0.5 * around))
+    };
     match geometry {
         Geometry::Plane { size_mm, .. } => 0.05 * size_mm[0].max(size_mm[1]),
-        Geometry::Cylinder { radius_mm, length_mm, .. } => {
-            (PI * radius_mm / 18.0).min(0.2 * length_mm)
-        }
+        Geometry::Cylinder { radius_mm, length_mm, .. } => round(*radius_mm, *length_mm),
         Geometry::Cone { radii_mm, length_mm, .. } => {
-            (PI * radii_mm[0].max(radii_mm[1]) / 18.0).min(0.2 * length_mm)
+            round(radii_mm[0].max(radii_mm[1]), *length_mm)
         }
         Geometry::Sphere { radius_mm, opening_rad, .. } => 0.1 * radius_mm * opening_rad,
         Geometry::Programmed { size_mm, .. } => 0.025 * size_mm[0].max(size_mm[1]),

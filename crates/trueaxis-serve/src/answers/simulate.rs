@@ -68,8 +68,15 @@ impl Request for SimulateRequest {
         };
         job.tell(1.0);
         let simulated = desk.simulations.put(simulated);
-        let answer = answer(&simulated, &simulation, &found, &problems);
-        Ok(Reply::frame(&answer, vec![("corners_mm", corners(&simulation.setup.bodies))]))
+        // The stock is drawn as the program leaves it.
+        let bodies = match &found.machined {
+            Some(machined) => machined.bodies(&simulation.setup.bodies),
+            None => simulation.setup.bodies.clone(),
+        };
+        let on_workpiece = bodies.iter().map(SurfaceEntry::from).collect();
+        let answer =
+            SimulateAnswer { on_workpiece, ..answer(&simulated, &simulation, &found, &problems) };
+        Ok(Reply::frame(&answer, vec![("corners_mm", corners(&bodies))]))
     }
 }
 
@@ -137,7 +144,7 @@ fn answer<'a>(
         bodies: machine.bodies().iter().map(|b| b.name.to_string()).collect(),
         document: SimulationDocument::of(&Simulation::of(simulation, found)),
         tools: tools.map(|(number, tool)| SetUpToolEntry::of(*number, tool)).collect(),
-        on_workpiece: simulation.setup.bodies.iter().map(SurfaceEntry::from).collect(),
+        on_workpiece: Vec::new(),
         diagnostics: entries(problems),
         simulation: *number,
     }

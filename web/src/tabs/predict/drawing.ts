@@ -34,7 +34,7 @@ export class Drawing {
     fill(
       this.head,
       h("div", { class: "panel-head" }, h("h1", {}, document.name), studyChoice(this.app, path)),
-      h("p", { class: "muted" }, `${document.part}; ${document.steps} steps of the tools`),
+      h("p", { class: "muted" }, `${document.part}; ${document.steps} steps of the tools${withoutU(document)}`),
       diagnosticList(diagnostics),
     );
     this.verdict.className = `verdict-band ${document.outcome}`;
@@ -175,6 +175,12 @@ export class Drawing {
     );
   }
 }
+
+/** What u leaves out. */
+const withoutU = ({ errors_without_u }: DrawingHeader["document"]): string =>
+  errors_without_u.length === 0
+    ? ""
+    : `; ${errors_without_u.length} errors of the machine file state no uncertainty and add nothing to u`;
 
 const allowed = (value: CharacteristicValue): string =>
   value.low_mm === null
