@@ -188,3 +188,87 @@ fn a_million_points_take_seconds_and_are_all_within() {
     let (low, high) = all.fold((f64::MAX, f64::MIN), |(l, h), d| (l.min(d), h.max(d)));
     assert!((high - low - zone.form_mm()).abs() < 1e-12);
 }
+
+/// What a deviation of each point makes of the centre and the radius of an arc: the sensitivities of least squares are its derivatives, whether the
+/// arc is open to one side or the other.
+#[test]
+fn law_sensitivities_of_an_arc_are_derivatives() {
+    for begin in [0.3_f64, 2.1, 4.4] {
+        let at = |k: u32, by: f64| {
+            let angle = begin + 0.1 * f64::from(k);
+            let radius = 25.0 + by;
+            Vec3::new(7.0 + radius * angle.cos(), -3.0 + radius * angle.sin(), 0.0)
+        };
+        let known = Known { normal: Some(Vec3::z()) };
+        let arc = |moved: u32, by: f64| {
+            let points: Vec<Vec3> =
+                (0..16).map(|k| at(k, if k == moved { by } else { 0.0 })).collect();
+            fit(Element::Circle, &points, &known).expect("an arc")
+        };
+        let (mut radius, mut x, mut y) = (0.0, 0.0, 0.0);
+        for k in 0..16 {
+            let [up, down] = [1e-4, -1e-4].map(|by| *arc(k, by).shape());
+            let slope = |a: f64, b: f64| ((a - b) / 2e-4).powi(2);
+            radius += slope(up.radius_mm, down.radius_mm);
+            x += slope(up.point_mm.x, down.point_mm.x);
+            y += slope(up.point_mm.y, down.point_mm.y);
+        }
+        let found = arc(0, 0.0).sensitivity;
+        for (found, due) in
+            [(found.radius.powi(2), radius), (found.point[(0, 0)], x), (found.point[(1, 1)], y)]
+        {
+            assert!((found / due - 1.0).abs() < 1e-3, "{begin}: {found} {due}");
+        }
+    }
+}
+
+/// The zone of a profile of a line by hand, in any direction of its plane: three contacts, the middle one on the other side, its direction that of the
+/// points.
+#[test]
+fn law_the_zone_of_a_line_by_hand() {
+    for angle in [0.0_f64, 0.7, 2.5, 4.0] {
+        let along = Vec3::new(angle.cos(), angle.sin(), 0.0);
+        let side = Vec3::new(-angle.sin(), angle.cos(), 0.0);
+        let at = |s: f64, h: f64| along * s + side * h + Vec3::new(5.0, 6.0, 0.0);
+        let points = [at(0.0, 0.0), at(3.0, 0.002), at(6.0, 0.006), at(10.0, 0.0)];
+        let known = Known { normal: Some(Vec3::z()) };
+        let line = fit(Element::Line, &points, &known).expect("a line");
+        let zone = line.reference(Criterion::MinimumZone).expect("a zone");
+        assert!((zone.form_mm() - 0.006).abs() < 1e-12, "{}", zone.form_mm());
+        assert!(zone.shape.direction.dot(&along).abs() > 1.0 - 1e-9, "{:?}", zone.shape.direction);
+        assert!((zone.shape.direction.norm() - 1.0).abs() < 1e-12);
+        let mut contacts: Vec<(usize, bool)> =
+            zone.contacts.iter().map(|c| (c.index, c.is_outer)).collect();
+        contacts.sort_unstable();
+        let outer = contacts.iter().find(|c| c.0 == 2).map(|c| c.1);
+        assert_eq!(contacts.iter().map(|c| c.0).collect::<Vec<_>>(), [0, 2, 3]);
+        assert!(
+            contacts.iter().all(|c| (c.1 == outer.expect("a contact")) == (c.0 == 2)),
+            "{contacts:?}"
+        );
+    }
+}
+
+/// Points of a plane have no sphere, those of a slight bow none with a centre far beyond them; exact points prove themselves from at least one start.
+#[test]
+fn law_a_centre_far_away_is_none_and_exact_points_agree() {
+    let grid = |bow: f64| -> Vec<Vec3> {
+        (0..36)
+            .map(|k| (f64::from(k % 6) - 2.5, f64::from(k / 6) - 2.5))
+            .map(|(x, y)| Vec3::new(x, y, bow * (x * x + y * y)))
+            .collect()
+    };
+    for bow in [0.0, 1e-9] {
+        assert!(fit(Element::Sphere, &grid(bow), &Known::default()).is_err(), "{bow}");
+    }
+    let ring = |k: u32| {
+        let angle = f64::from(k) * 0.7;
+        Vec3::new(8.0 * angle.cos(), 8.0 * angle.sin(), f64::from(k))
+    };
+    let exact = fitted(Element::Cylinder, &(0..30).map(ring).collect::<Vec<_>>());
+    let zone = exact.reference(Criterion::MinimumZone).expect("a zone");
+    assert!(zone.form_mm() < 1e-9);
+    if let Some(Proof::Local { agreed, .. }) = zone.proof {
+        assert!(agreed >= 1);
+    }
+}

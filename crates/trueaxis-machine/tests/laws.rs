@@ -571,3 +571,15 @@ fn law_periodic_splines_close_with_slope_and_curvature() {
 }
 
 // ---------------------------------------------------------------- the machine file
+
+/// ISO 841: an axis that carries the workpiece has a prime, those on the side of the tool have none.
+#[test]
+fn law_axes_of_the_workpiece_have_a_prime() {
+    for (name, text) in [
+        ("i5-engraver", "w C' A' b X Y Z t"),
+        ("head-table", "w C' b X Y Z B t"),
+        ("xkas2525", "w b X Y Z C A t"),
+    ] {
+        assert_eq!(machine(name).chain_text(), text);
+    }
+}

@@ -2,11 +2,12 @@
 
 use super::path::CutPath;
 use super::{PartStudy, PartValue, outcome};
+use rayon::prelude::*;
 use trueaxis_cut::{Cut, Nail};
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Command};
-use trueaxis_machine::errors::{ErrorName, ErrorValues};
+use trueaxis_machine::errors::{ErrorIndex, ErrorName, ErrorValues};
 use trueaxis_part::part;
 
 /// What one error does to a characteristic.
@@ -23,22 +24,45 @@ struct Place<'a> {
     machine: &'a Machine,
     command: Command,
     errors: ErrorValues,
+    /// Deviation of tip and axis by these errors.
+    there: [Vec3; 2],
     nail: &'a Nail,
     cut: &'a Cut,
 }
 
-/// Values of the errors at a command before and after a change.
-type Change<'a> = dyn Fn(&Machine, &Command, &ErrorValues) -> [ErrorValues; 2] + 'a;
+/// Deviation of tip and axis.
+fn deviation(machine: &Machine, command: &Command, errors: &ErrorValues) -> [Vec3; 2] {
+    let there = machine.deviation(command, errors);
+    [there.tip_mm, there.axis]
+}
 
-/// By how much tip and axis are elsewhere after a change.
-fn moved(
-    machine: &Machine,
-    command: &Command,
-    errors: &ErrorValues,
-    change: &Change<'_>,
+/// By how much tip and axis are elsewhere without one error.
+fn without(
+    (machine, command, errors): (&Machine, &Command, &ErrorValues),
+    there: &[Vec3; 2],
+    index: ErrorIndex,
 ) -> [Vec3; 2] {
-    let [a, b] = change(machine, command, errors).map(|e| machine.deviation(command, &e));
-    [b.tip_mm - a.tip_mm, b.axis - a.axis]
+    let mut left = *errors;
+    left.set(index, 0.0);
+    let [tip, axis] = deviation(machine, command, &left);
+    [tip - there[0], axis - there[1]]
+}
+
+/// By how much tip and axis differ from one standard uncertainty of a quantity below to one above, for each quantity.
+fn uncertain<'a>(
+    (machine, command, errors): (&'a Machine, &'a Command, &'a ErrorValues),
+    quantities: &[String],
+) -> impl Iterator<Item = [Vec3; 2]> + use<'a> {
+    let known = machine.uncertainties_at(command, quantities);
+    (0..quantities.len()).map(move |quantity| {
+        let [high, low] = [1.0, -1.0].map(|z| known.displaced_by(errors, quantity, z));
+        if high == low {
+            return [Vec3::zeros(); 2];
+        }
+        let [tip, axis] = deviation(machine, command, &high);
+        let [low_tip, low_axis] = deviation(machine, command, &low);
+        [tip - low_tip, axis - low_axis]
+    })
 }
 
 /// The cuts of a part, and where its zero was set.
@@ -48,16 +72,42 @@ struct Cuts<'a> {
 }
 
 impl Cuts<'_> {
-    /// By how much a change of the errors shifts each point along its normal, to first order: docs/model.md eq. 245.
-    fn shifts(&self, change: &Change<'_>) -> Vec<f64> {
+    /// By how much the absence of an error shifts each point along its normal, to first order: docs/model.md eq. 245.
+    fn shifts_without(&self, index: ErrorIndex) -> Vec<f64> {
         let zero = self.zero.as_ref().map_or(Vec3::zeros(), |(machine, command, errors)| {
-            moved(machine, command, errors, change)[0]
+            let there = deviation(machine, command, errors);
+            without((machine, command, errors), &there, index)[0]
         });
         let shift = |place: &Place<'_>| {
-            let [tip, axis] = moved(place.machine, &place.command, &place.errors, change);
+            let [tip, axis] = without(place.stand(), &place.there, index);
             place.cut.shift_mm(place.nail, &(tip - zero), &axis)
         };
-        self.places.iter().map(shift).collect()
+        self.places.par_iter().map(shift).collect()
+    }
+
+    /// The same from one standard uncertainty of each quantity below to one above: quantity by quantity.
+    fn uncertain_shifts(&self, quantities: &[String]) -> Vec<Vec<f64>> {
+        let zeros: Vec<Vec3> = match &self.zero {
+            None => vec![Vec3::zeros(); quantities.len()],
+            Some((machine, command, errors)) => {
+                uncertain((machine, command, errors), quantities).map(|[tip, _]| tip).collect()
+            }
+        };
+        let shifts = |place: &Place<'_>| {
+            let moved = uncertain(place.stand(), quantities).zip(&zeros);
+            let shift = |([tip, axis], zero): ([Vec3; 2], &Vec3)| {
+                place.cut.shift_mm(place.nail, &(tip - zero), &axis)
+            };
+            moved.map(shift).collect::<Vec<f64>>()
+        };
+        let by_place: Vec<Vec<f64>> = self.places.par_iter().map(shifts).collect();
+        (0..quantities.len()).map(|q| by_place.iter().map(|of| of[q]).collect()).collect()
+    }
+}
+
+impl Place<'_> {
+    fn stand(&self) -> (&Machine, &Command, &ErrorValues) {
+        (self.machine, &self.command, &self.errors)
     }
 }
 
@@ -81,30 +131,29 @@ pub(super) fn values(
     let evaluate = |deviation_mm: &[f64]| part.evaluate(deviation_mm).map_err(|e| e.to_string());
     let actual = evaluate(deviations)?;
     let nominal = evaluate(by_program)?;
-    let mut variance = vec![0.0; actual.len()];
     let quantities = study.mounted.uncertain_quantities();
-    for quantity in 0..quantities.len() {
-        let change = |machine: &Machine, command: &Command, errors: &ErrorValues| {
-            let known = machine.uncertainties_at(command, &quantities);
-            [-1.0, 1.0].map(|z| known.displaced_by(errors, quantity, z))
-        };
-        // From one standard uncertainty below to one above.
-        let shift = all.shifts(&change);
-        let [above, below] = [0.5, -0.5].map(|half| added(deviations, &shift, half));
-        for ((sum, a), b) in variance.iter_mut().zip(evaluate(&above)?).zip(evaluate(&below)?) {
+    // From one standard uncertainty below to one above.
+    let uncertain = |shift: &Vec<f64>| {
+        let [above, below] = [0.5, -0.5].map(|half| added(deviations, shift, half));
+        Ok::<_, String>([evaluate(&above)?, evaluate(&below)?])
+    };
+    let shifts = all.uncertain_shifts(&quantities);
+    let ends: Vec<[Vec<f64>; 2]> = shifts.par_iter().map(uncertain).collect::<Result<_, _>>()?;
+    let mut variance = vec![0.0; actual.len()];
+    for [above, below] in ends {
+        for ((sum, a), b) in variance.iter_mut().zip(above).zip(below) {
             *sum += (0.5 * (a - b)).powi(2);
         }
     }
+    let stated = study.mounted.stated_errors();
+    let without: Vec<Vec<f64>> = stated
+        .par_iter()
+        .map(|(index, _)| evaluate(&added(deviations, &all.shifts_without(*index), 1.0)))
+        .collect::<Result<_, _>>()?;
     let mut effects: Vec<Vec<ErrorEffect>> = vec![Vec::new(); actual.len()];
-    for (index, error) in study.mounted.stated_errors() {
-        let change = |_: &Machine, _: &Command, errors: &ErrorValues| {
-            let mut without = *errors;
-            without.set(index, 0.0);
-            [*errors, without]
-        };
-        let without = evaluate(&added(deviations, &all.shifts(&change), 1.0))?;
+    for ((_, error), without) in stated.iter().zip(without) {
         for (list, without_mm) in effects.iter_mut().zip(without) {
-            list.push(ErrorEffect { error, without_mm });
+            list.push(ErrorEffect { error: *error, without_mm });
         }
     }
     let value = |(i, asked): (usize, &part::Characteristic)| {
@@ -133,7 +182,8 @@ fn place<'a>(
     let (command, approach) = path.place(cut).ok_or("a cut without its step")?;
     let machine = machines.get(cut.sweep).ok_or("a cut without its tool")?;
     let errors = machine.errors_at(&command, &approach).map_err(|e| e.to_string())?;
-    Ok(Place { machine, command, errors, nail, cut })
+    let there = deviation(machine, &command, &errors);
+    Ok(Place { machine, command, errors, there, nail, cut })
 }
 
 fn added(deviations: &[f64], shift: &[f64], factor: f64) -> Vec<f64> {
