@@ -264,6 +264,9 @@ impl Stock {
                 let lines = Lines::of(grid);
                 let row = |(j, row): (usize, &mut [Material])| {
                     let mut sums = Vec::new();
+                    if row.iter().all(Vec::is_empty) {
+                        return sums;
+                    }
                     lines.pass(&bodies, j, &mut sums, |i, body, at| {
                         let part = part.map(|p| (&*p[k].material[j * counts[0] + i], p));
                         line::take(&mut row[i], part, body, (at, k))

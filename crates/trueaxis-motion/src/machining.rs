@@ -27,6 +27,8 @@ const CHUNK: usize = 4096;
 const STOCK: &str = "stock";
 /// Poses of a whole program: some minutes of work.
 const MOST_POSES: usize = 50_000_000;
+/// A cutter is no wider than so many times the diagonal of the stock.
+const WIDEST: f64 = 10.0;
 /// Places of the lattice of a picture.
 const MOST_PLACES: usize = 600_000;
 /// Without a stated resolution the longest edge of the stock has so many lines.
@@ -166,13 +168,17 @@ impl Machining {
         if let Some(part) = body(Role::Part) {
             cut = cut.with_part(&placed(part)).map_err(|e| refused(&part.name, e))?;
         }
-        let tools = setup.tools.iter().map(|(number, tool)| (*number, Tool::of(*number, tool)));
+        let diagonal_mm = extent(&triangles).norm();
+        let tool = |(number, tool): (&u32, &SetUpTool)| {
+            (*number, Tool::of(*number, tool).and_then(|tool| tool.fits(diagonal_mm)))
+        };
+        let tools = setup.tools.iter().map(tool);
         Ok(Self {
             before_mm3: cut.volume_mm3(),
             stock: cut,
             tools: tools.collect(),
             spacing_mm: 0.6 * resolution_mm,
-            diagonal_mm: extent(&triangles).norm(),
+            diagonal_mm,
             count: 0,
             ended_at: None,
             tool: 0,
@@ -380,6 +386,19 @@ impl Tool {
             false => tool.name.clone(),
         };
         Ok(Self { name, cutter, above, reach_mm: length_mm.max(at_mm) })
+    }
+}
+
+impl Tool {
+    /// A cutter many times as wide as the stock is a slip of the unit.
+    fn fits(self, diagonal_mm: f64) -> Result<Self, String> {
+        let width_mm = 2.0 * self.cutter.widest_mm();
+        if width_mm > WIDEST * diagonal_mm {
+            return Err(format!(
+                "it is {width_mm:.0} mm wide, and the stock measures {diagonal_mm:.0} mm across its corners"
+            ));
+        }
+        Ok(self)
     }
 }
 
