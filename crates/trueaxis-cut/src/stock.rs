@@ -80,16 +80,6 @@ impl Taken {
     pub fn mean_mm3(&self) -> f64 {
         self.volume_mm3.iter().sum::<f64>() / 3.0
     }
-
-    /// With another one.
-    pub fn add(&mut self, other: &Self) {
-        for k in 0..3 {
-            self.volume_mm3[k] += other.volume_mm3[k];
-            self.gouged_mm3[k] += other.gouged_mm3[k];
-        }
-        self.longest_mm = self.longest_mm.max(other.longest_mm);
-        self.gouge_mm = self.gouge_mm.max(other.gouge_mm);
-    }
 }
 
 /// What remains of a block.
@@ -116,19 +106,24 @@ pub struct Stock {
     high_mm: Vec3,
 }
 
-/// Parallel lines on a grid.
+/// Parallel lines on a grid, with their material row by row of the first axis across them.
 #[derive(Debug, Clone)]
 struct Grid {
-    /// Along which axis the lines go.
+    lines: Lines,
+    material: Vec<Material>,
+}
+
+/// Where parallel lines are.
+#[derive(Debug, Clone, Copy)]
+struct Lines {
+    /// Along which axis they go.
     along: usize,
-    /// The axes across it.
+    /// The axes across them.
     across: [usize; 2],
-    /// The middle of the first line across it.
+    /// The middle of the first line across them.
     first_mm: [f64; 2],
     step_mm: [f64; 2],
     counts: [usize; 2],
-    /// Row by row of the first axis across.
-    material: Vec<Material>,
 }
 
 impl Stock {
@@ -145,7 +140,7 @@ impl Stock {
         let high_mm = corners().fold(Vec3::repeat(f64::MIN), |a, b| a.sup(b));
         let mut stock = Self::empty(low_mm, high_mm, resolution_mm)?;
         for grid in &mut stock.grids {
-            grid.material = scan::scan(grid, triangles)?;
+            grid.material = scan::scan(&grid.lines, triangles)?;
         }
         Ok(stock)
     }
@@ -157,8 +152,8 @@ impl Stock {
     pub fn block(low_mm: &Vec3, high_mm: &Vec3, resolution_mm: f64) -> Result<Self, StockError> {
         let mut stock = Self::empty(*low_mm, *high_mm, resolution_mm)?;
         for grid in &mut stock.grids {
-            let whole = vec![[low_mm[grid.along], high_mm[grid.along]]];
-            grid.material = vec![whole; grid.counts[0] * grid.counts[1]];
+            let Lines { along, .. } = grid.lines;
+            grid.material = vec![vec![[low_mm[along], high_mm[along]]]; grid.lines.count()];
         }
         Ok(stock)
     }
@@ -180,7 +175,10 @@ impl Stock {
         if lines > MOST_LINES {
             return Err(StockError::TooFine { resolution_mm, lines });
         }
-        let grids = [0, 1, 2].map(|along| Grid::new(along, low_mm, size, resolution_mm));
+        let grids = [0, 1, 2].map(|along| {
+            let lines = Lines::new(along, low_mm, size, resolution_mm);
+            Grid { lines, material: Vec::new() }
+        });
         Ok(Self { grids, part: None, resolution_mm, low_mm, high_mm })
     }
 
@@ -191,7 +189,7 @@ impl Stock {
     pub fn with_part(mut self, triangles: &[[Vec3; 3]]) -> Result<Self, StockError> {
         let mut grids = self.grids.clone();
         for grid in &mut grids {
-            grid.material = scan::scan(grid, triangles)?;
+            grid.material = scan::scan(&grid.lines, triangles)?;
         }
         self.part = Some(Box::new(grids));
         Ok(self)
@@ -219,14 +217,8 @@ impl Stock {
 
     /// The lines along an axis (0: X), each by the place where its coordinate along that axis is 0, and its material from low to high.
     pub fn lines(&self, along: usize) -> impl Iterator<Item = (Vec3, &[[f64; 2]])> {
-        let grid = &self.grids[along];
-        grid.material.iter().enumerate().map(|(i, material)| {
-            let mut at = Vec3::zeros();
-            for (k, n) in [i % grid.counts[0], i / grid.counts[0]].into_iter().enumerate() {
-                at[grid.across[k]] = grid.first_mm[k] + n as f64 * grid.step_mm[k];
-            }
-            (at, material.as_slice())
-        })
+        let Grid { lines, material } = &self.grids[along];
+        material.iter().enumerate().map(move |(i, material)| (lines.place(i), material.as_slice()))
     }
 
     /// How much remains that is not of the part; none without a part. Unit: mm³.
@@ -237,7 +229,7 @@ impl Stock {
             let excess = lines.flat_map(|(material, part)| {
                 material.iter().map(|s| s[1] - s[0] - line::overlap(part, *s))
             });
-            excess.sum::<f64>() * grid.area_mm2()
+            excess.sum::<f64>() * grid.lines.area_mm2()
         };
         Some(self.grids.iter().zip(part.iter()).map(of).sum::<f64>() / 3.0)
     }
@@ -260,21 +252,21 @@ impl Stock {
             let mut taken = vec![Taken::default(); steps.len()];
             for (k, grid) in self.grids.iter_mut().enumerate().filter(|_| !bodies.is_empty()) {
                 let part = self.part.as_deref();
-                let (area, counts) = (grid.area_mm2(), grid.counts);
-                let lines = Lines::of(grid);
+                let lines = grid.lines;
+                let [in_row, _] = lines.counts;
                 let row = |(j, row): (usize, &mut [Material])| {
                     let mut sums = Vec::new();
                     if row.iter().all(Vec::is_empty) {
                         return sums;
                     }
                     lines.pass(&bodies, j, &mut sums, |i, body, at| {
-                        let part = part.map(|p| (&*p[k].material[j * counts[0] + i], p));
+                        let part = part.map(|p| (&*p[k].material[j * in_row + i], p));
                         line::take(&mut row[i], part, body, (at, k))
                     });
                     sums
                 };
-                let rows = grid.material.par_chunks_mut(counts[0]).enumerate().map(row);
-                collect(rows.collect(), (k, area), &mut taken);
+                let rows = grid.material.par_chunks_mut(in_row).enumerate().map(row);
+                collect(rows.collect(), (k, lines.area_mm2()), &mut taken);
             }
             all.extend(taken);
         }
@@ -293,20 +285,7 @@ fn collect(rows: Vec<Vec<(usize, Stretch)>>, (k, area_mm2): (usize, f64), taken:
     }
 }
 
-/// The lines of a grid without their material.
-struct Lines {
-    across: [usize; 2],
-    first_mm: [f64; 2],
-    step_mm: [f64; 2],
-    counts: [usize; 2],
-}
-
 impl Lines {
-    fn of(grid: &Grid) -> Self {
-        let Grid { across, first_mm, step_mm, counts, .. } = *grid;
-        Self { across, first_mm, step_mm, counts }
-    }
-
     /// Each line of a row that a body may meet, body after body.
     fn pass(
         &self,
@@ -340,33 +319,49 @@ impl Lines {
     }
 }
 
-impl Grid {
+impl Lines {
     /// Cells that fill the box: as many as the resolution asks for.
     fn new(along: usize, low_mm: Vec3, size_mm: Vec3, resolution_mm: f64) -> Self {
         let across = [(along + 1) % 3, (along + 2) % 3];
         let counts = across.map(|a| (size_mm[a] / resolution_mm - 1e-9).ceil().max(1.0) as usize);
         let step_mm = [0, 1].map(|k: usize| size_mm[across[k]] / counts[k] as f64);
         let first_mm = [0, 1].map(|k: usize| low_mm[across[k]] + 0.5 * step_mm[k]);
-        Self { along, across, first_mm, step_mm, counts, material: Vec::new() }
+        Self { along, across, first_mm, step_mm, counts }
     }
 
-    /// How far a place is from both ends of the material around it, along the nearest line; 0 outside of it.
-    fn depth_mm(&self, at: &Vec3) -> f64 {
-        let cell = [0, 1].map(|k: usize| {
-            let place = ((at[self.across[k]] - self.first_mm[k]) / self.step_mm[k]).round();
-            place.clamp(0.0, (self.counts[k] - 1) as f64) as usize
-        });
-        let place = at[self.along];
-        let depth = |s: &[f64; 2]| (place - s[0]).min(s[1] - place);
-        let line = &self.material[cell[1] * self.counts[0] + cell[0]];
-        line.iter().map(depth).fold(0.0, f64::max)
+    fn count(&self) -> usize {
+        self.counts[0] * self.counts[1]
+    }
+
+    /// The place of a line, in the order of the material; its coordinate along the line is 0.
+    fn place(&self, i: usize) -> Vec3 {
+        let mut at = Vec3::zeros();
+        for (k, n) in [i % self.counts[0], i / self.counts[0]].into_iter().enumerate() {
+            at[self.across[k]] = self.first_mm[k] + n as f64 * self.step_mm[k];
+        }
+        at
     }
 
     fn area_mm2(&self) -> f64 {
         self.step_mm[0] * self.step_mm[1]
     }
+}
+
+impl Grid {
+    /// How far a place is from both ends of the material around it, along the nearest line; 0 outside of it.
+    fn depth_mm(&self, at: &Vec3) -> f64 {
+        let Lines { along, across, first_mm, step_mm, counts } = self.lines;
+        let cell = [0, 1].map(|k: usize| {
+            let place = ((at[across[k]] - first_mm[k]) / step_mm[k]).round();
+            place.clamp(0.0, (counts[k] - 1) as f64) as usize
+        });
+        let place = at[along];
+        let depth = |s: &[f64; 2]| (place - s[0]).min(s[1] - place);
+        let line = &self.material[cell[1] * counts[0] + cell[0]];
+        line.iter().map(depth).fold(0.0, f64::max)
+    }
 
     fn volume_mm3(&self) -> f64 {
-        self.area_mm2() * self.material.iter().flatten().map(|s| s[1] - s[0]).sum::<f64>()
+        self.lines.area_mm2() * self.material.iter().flatten().map(|s| s[1] - s[0]).sum::<f64>()
     }
 }

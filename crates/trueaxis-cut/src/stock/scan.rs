@@ -1,19 +1,19 @@
 //! From a closed mesh to the material of lines.
 
 use super::line::Material;
-use super::{Grid, StockError};
+use super::{Lines, StockError};
 use trueaxis_geometry::Vec3;
 
-/// The material of each line of a grid: where it is inside of an odd number of walls.
-pub(super) fn scan(grid: &Grid, triangles: &[[Vec3; 3]]) -> Result<Vec<Material>, StockError> {
-    let mut hits: Vec<Vec<f64>> = vec![Vec::new(); grid.counts[0] * grid.counts[1]];
+/// The material of each line: where it is inside of an odd number of walls.
+pub(super) fn scan(lines: &Lines, triangles: &[[Vec3; 3]]) -> Result<Vec<Material>, StockError> {
+    let mut hits: Vec<Vec<f64>> = vec![Vec::new(); lines.count()];
     for triangle in triangles {
-        hit(grid, triangle, &mut hits);
+        hit(lines, triangle, &mut hits);
     }
     let mut material = Vec::with_capacity(hits.len());
     for (i, mut line) in hits.into_iter().enumerate() {
         if line.len() % 2 == 1 {
-            return Err(StockError::Open(named(grid, i)));
+            return Err(StockError::Open(named(lines, i)));
         }
         line.sort_by(f64::total_cmp);
         let pairs = line.chunks_exact(2).map(|p| [p[0], p[1]]);
@@ -31,46 +31,45 @@ pub(super) fn scan(grid: &Grid, triangles: &[[Vec3; 3]]) -> Result<Vec<Material>
 }
 
 /// The middle of a line in words.
-fn named(grid: &Grid, i: usize) -> String {
-    let (u, v) = (i % grid.counts[0], i / grid.counts[0]);
-    let at = |k: usize, n: usize| grid.first_mm[k] + n as f64 * grid.step_mm[k];
-    let name = |k: usize| ["X", "Y", "Z"][grid.across[k]];
-    format!("{} {:.3} {} {:.3} mm", name(0), at(0, u), name(1), at(1, v))
+fn named(lines: &Lines, i: usize) -> String {
+    let at = lines.place(i);
+    let [u, v] = lines.across.map(|axis| format!("{} {:.3}", ["X", "Y", "Z"][axis], at[axis]));
+    format!("{u} {v} mm")
 }
 
-/// Where the lines of a grid go through a triangle.
-fn hit(grid: &Grid, triangle: &[Vec3; 3], hits: &mut [Vec<f64>]) {
-    let [a, b] = grid.across;
+/// Where lines go through a triangle.
+fn hit(lines: &Lines, triangle: &[Vec3; 3], hits: &mut [Vec<f64>]) {
+    let [a, b] = lines.across;
     let flat = triangle.map(|p| [p[a], p[b]]);
     let bound = |k: usize, pick: fn(f64, f64) -> f64, start: f64| {
         flat.iter().fold(start, |sum, p| pick(sum, p[k]))
     };
     let range = |k: usize| {
-        let cell = |at: f64| (at - grid.first_mm[k]) / grid.step_mm[k];
-        let last = grid.counts[k] as f64;
+        let cell = |at: f64| (at - lines.first_mm[k]) / lines.step_mm[k];
+        let last = lines.counts[k] as f64;
         let from = cell(bound(k, f64::min, f64::MAX)).ceil().clamp(0.0, last);
         let to = (cell(bound(k, f64::max, f64::MIN)).floor() + 1.0).clamp(0.0, last);
         from as usize..to as usize
     };
     // The plane of the triangle as a height over the grid; one that stands upright is met by no line.
     let normal = (triangle[1] - triangle[0]).cross(&(triangle[2] - triangle[0]));
-    if normal[grid.along] == 0.0 {
+    if normal[lines.along] == 0.0 {
         return;
     }
     for j in range(1) {
-        let v = grid.first_mm[1] + j as f64 * grid.step_mm[1];
+        let v = lines.first_mm[1] + j as f64 * lines.step_mm[1];
         for i in range(0) {
-            let u = grid.first_mm[0] + i as f64 * grid.step_mm[0];
+            let u = lines.first_mm[0] + i as f64 * lines.step_mm[0];
             if !contains(&flat, [u, v]) {
                 continue;
             }
             let from = triangle[0];
             let rise = normal[a] * (u - from[a]) + normal[b] * (v - from[b]);
-            let height = from[grid.along] - rise / normal[grid.along];
-            let ends = triangle.map(|p| p[grid.along]);
+            let height = from[lines.along] - rise / normal[lines.along];
+            let ends = triangle.map(|p| p[lines.along]);
             let low = ends.iter().copied().fold(f64::MAX, f64::min);
             let high = ends.iter().copied().fold(f64::MIN, f64::max);
-            hits[j * grid.counts[0] + i].push(height.clamp(low, high));
+            hits[j * lines.counts[0] + i].push(height.clamp(low, high));
         }
     }
 }

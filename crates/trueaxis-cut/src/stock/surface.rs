@@ -35,7 +35,7 @@ impl Stock {
 impl<'s> Lattice<'s> {
     fn of(grids: &'s [Grid; 3], most_places: usize) -> Self {
         // Along X go the columns of the grid of Y, and so on.
-        let all = [grids[1].counts[1], grids[2].counts[1], grids[0].counts[1]];
+        let all = [grids[1].lines.counts[1], grids[2].lines.counts[1], grids[0].lines.counts[1]];
         let mut stride = 1;
         let counts = |stride: usize| all.map(|c| c.div_ceil(stride) + 2);
         while counts(stride).iter().product::<usize>() > most_places && stride < 1 << 12 {
@@ -58,22 +58,23 @@ impl<'s> Lattice<'s> {
 
     /// The line of each direction through a node; none in the layer of air.
     fn line(&self, node: Node, along: usize) -> Option<&[[f64; 2]]> {
-        let grid = &self.grids[along];
+        let Grid { lines, material } = &self.grids[along];
         let mut cell = [0; 2];
-        for (cell, (axis, count)) in cell.iter_mut().zip(grid.across.into_iter().zip(grid.counts)) {
+        for (cell, (axis, count)) in cell.iter_mut().zip(lines.across.into_iter().zip(lines.counts))
+        {
             *cell = node[axis].checked_sub(1)? * self.stride;
             if *cell >= count {
                 return None;
             }
         }
-        Some(&grid.material[cell[1] * grid.counts[0] + cell[0]])
+        Some(&material[cell[1] * lines.counts[0] + cell[0]])
     }
 
     /// The coordinate of a node along an axis, mm.
     fn coordinate(&self, node: Node, axis: usize) -> f64 {
-        let grid = &self.grids[(axis + 1) % 3];
-        let k = usize::from(grid.across[0] != axis);
-        grid.first_mm[k] + (node[axis] as f64 - 1.0) * self.stride as f64 * grid.step_mm[k]
+        let lines = &self.grids[(axis + 1) % 3].lines;
+        let k = usize::from(lines.across[0] != axis);
+        lines.first_mm[k] + (node[axis] as f64 - 1.0) * self.stride as f64 * lines.step_mm[k]
     }
 
     fn place(&self, node: Node) -> Vec3 {

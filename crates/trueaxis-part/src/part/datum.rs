@@ -7,14 +7,15 @@
 //!
 //! Docs/model.md eq. 248 and 249.
 
+use super::feature::across;
 use super::values::{Surface, unfit};
 use super::{Feature, Geometry};
 use crate::Error;
 use trueaxis_form::circle::Fitter;
 use trueaxis_form::placed::{Freedom, Motion, Twist, place};
 use trueaxis_form::{Criterion, Element, Shape};
-use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Point, Pose, rotation};
+use trueaxis_geometry::{Mat3, Vec3};
 
 /// The frame of a datum system, and the motions that it leaves free.
 #[derive(Debug, Clone)]
@@ -74,7 +75,7 @@ impl DatumFrame {
         let places = self.seen(&surface.places_mm);
         let geometry = surface.feature.geometry;
         let free = self.free.moving(&held(surface.feature));
-        let outside = |_: usize, p: &Vec3| geometry.outside(p).unwrap_or((f64::NAN, Vec3::zeros()));
+        let outside = geometry.distances();
         match geometry {
             Geometry::Plane { normal, .. } if self.free.has_shift(&normal) => {
                 let zone = place(&places, &free, &outside, Criterion::MinimumZone)?;
@@ -92,7 +93,7 @@ impl DatumFrame {
                 Ok(place(&both, &free, &either, Criterion::MinimumCircumscribed)?.motion)
             }
             Geometry::Cylinder { at_mm, axis, is_hole, .. } => {
-                let shifts = super::feature::across(&axis);
+                let shifts = across(&axis);
                 let turns = self.free.twists().iter().any(|t| t.turn.cross(&axis).norm() > 1e-9);
                 if turns || !shifts.iter().all(|s| self.free.has_shift(s)) {
                     return Ok(
@@ -146,18 +147,15 @@ impl Surface<'_> {
         let found = self.datum()?;
         let onto = |nominal: &Vec3| {
             let sign = if found.direction.dot(nominal) < 0.0 { -1.0 } else { 1.0 };
-            let (cross, cos) =
-                (nominal.cross(&(found.direction * sign)), found.direction.dot(nominal) * sign);
-            let sin = cross.norm();
+            let cross = nominal.cross(&(found.direction * sign));
+            let (sin, cos) = (cross.norm(), found.direction.dot(nominal) * sign);
             match sin > 0.0 {
                 true => rotation(cross / sin, sin.atan2(cos)),
-                false => trueaxis_geometry::Mat3::identity(),
+                false => Mat3::identity(),
             }
         };
         // Turned about the place of the nominal feature, then shifted.
-        let about = |turn: trueaxis_geometry::Mat3, at: &Vec3, shift: Vec3| {
-            Pose::new(turn, at + shift - turn * at)
-        };
+        let about = |turn: Mat3, at: &Vec3, shift: Vec3| Pose::new(turn, at + shift - turn * at);
         Ok(match self.feature.geometry {
             Geometry::Plane { at_mm, normal, .. } => {
                 let turn = onto(&normal);

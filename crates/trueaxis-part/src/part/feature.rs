@@ -165,6 +165,11 @@ impl Geometry {
         }
     }
 
+    /// The same for each place of a list; not a number where there is none.
+    pub(super) fn distances(&self) -> impl Fn(usize, &Vec3) -> (f64, Vec3) + '_ {
+        |_, place| self.outside(place).unwrap_or((f64::NAN, Vec3::zeros()))
+    }
+
     /// Points no farther apart than `spacing_mm`, and which of them make a section; half a step from edges, where two surfaces
     /// meet.
     ///

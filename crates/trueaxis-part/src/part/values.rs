@@ -87,7 +87,7 @@ fn value<'p>(
         [datum] => surfaces[datum].datum(),
         _ => Err(unfit("a characteristic without the datum that it needs")),
     };
-    let is_system = asked.datums.len() > 1 || asked.kind == Kind::Angularity;
+    let is_single = asked.datums.len() == 1;
     match asked.kind {
         Kind::Flatness => surface.form(Element::Plane),
         Kind::Cylindricity => surface.form(Element::Cylinder),
@@ -103,11 +103,11 @@ fn value<'p>(
             Some((at, axis)) => surface.about_axis(&at, &axis),
             None => Ok(2.0 * surface.farthest_mm()),
         },
-        Kind::Parallelism | Kind::Perpendicularity | Kind::Angularity if is_system => {
+        Kind::Parallelism if is_single => surface.oriented(&datum()?, true),
+        Kind::Perpendicularity if is_single => surface.oriented(&datum()?, false),
+        Kind::Parallelism | Kind::Perpendicularity | Kind::Angularity => {
             surface.oriented_by(&systems.frame(surfaces, &asked.datums)?)
         }
-        Kind::Parallelism => surface.oriented(&datum()?, true),
-        Kind::Perpendicularity | Kind::Angularity => surface.oriented(&datum()?, false),
         Kind::Coaxiality => {
             let datum = datum()?;
             surface.about_axis(&datum.point_mm, &datum.direction)
@@ -202,12 +202,7 @@ impl Surface<'_> {
 
     /// Twice the largest distance of the median line from an axis.
     fn about_axis(&self, at: &Vec3, axis: &Vec3) -> Result<f64, Error> {
-        let centres = self.median_line()?;
-        let off = |centre: &Vec3| {
-            let arm = centre - at;
-            (arm - axis * arm.dot(axis)).norm()
-        };
-        Ok(2.0 * centres.iter().map(off).fold(0.0, f64::max))
+        Ok(2.0 * farthest(&self.median_line()?, at, axis))
     }
 
     fn straightness(&self) -> Result<f64, Error> {
@@ -220,12 +215,7 @@ impl Surface<'_> {
     fn located(&self, frame: &DatumFrame, is_position: bool) -> Result<f64, Error> {
         let geometry = self.feature.geometry;
         if let (true, Some((at, axis))) = (is_position, geometry.axis()) {
-            let centres = frame.seen(&self.median_line()?);
-            let off = |centre: &Vec3| {
-                let arm = centre - at;
-                (arm - axis * arm.dot(&axis)).norm()
-            };
-            return Ok(2.0 * centres.iter().map(off).fold(0.0, f64::max));
+            return Ok(2.0 * farthest(&frame.seen(&self.median_line()?), &at, &axis));
         }
         let seen = frame.seen(&self.places_mm);
         let off = |(place, nominal): (&Vec3, &SurfacePoint)| match geometry.outside(place) {
@@ -240,15 +230,11 @@ impl Surface<'_> {
     fn oriented_by(&self, frame: &DatumFrame) -> Result<f64, Error> {
         let geometry = self.feature.geometry;
         if let Some((_, axis)) = geometry.axis() {
-            let [x, y] = across(&axis);
-            let centres = frame.seen(&self.median_line()?);
-            let flat: Vec<[f64; 2]> = centres.iter().map(|p| [p.dot(&x), p.dot(&y)]).collect();
-            return Ok(2.0 * Fitter::default().enclosing_radius_mm(&flat)?);
+            return narrowest_about(&frame.seen(&self.median_line()?), &axis);
         }
         let seen = frame.seen(&self.places_mm);
         let free = frame.free.with_shifts().moving(&held(self.feature));
-        let outside = |_: usize, p: &Vec3| geometry.outside(p).unwrap_or((f64::NAN, Vec3::zeros()));
-        let zone = place(&seen, &free, &outside, Criterion::MinimumZone)?;
+        let zone = place(&seen, &free, &geometry.distances(), Criterion::MinimumZone)?;
         Ok(zone.high_mm - zone.low_mm)
     }
 
@@ -263,25 +249,35 @@ impl Surface<'_> {
             None if is_axis != is_parallel => Ok(range(along(&self.places_mm))),
             None => least_range(&self.places_mm, &direction),
             // The axis of the zone is the direction of the datum.
-            Some(_) if is_axis == is_parallel => {
-                let [x, y] = across(&direction);
-                let centres = self.median_line()?;
-                let flat: Vec<[f64; 2]> = centres.iter().map(|p| [p.dot(&x), p.dot(&y)]).collect();
-                Ok(2.0 * Fitter::default().enclosing_radius_mm(&flat)?)
-            }
+            Some(_) if is_axis == is_parallel => narrowest_about(&self.median_line()?, &direction),
             Some(_) => Ok(range(along(&self.median_line()?))),
         }
     }
 
     /// The largest range of the distances from an axis among some stretches of the points.
     fn run_out(&self, datum: &Shape, stretches: &[Range<usize>]) -> f64 {
-        let off = |p: &Vec3| {
-            let arm = p - datum.point_mm;
-            (arm - datum.direction * arm.dot(&datum.direction)).norm()
-        };
+        let off = |p: &Vec3| off_axis(p, &datum.point_mm, &datum.direction);
         let ranges = stretches.iter().map(|s| range(self.places_mm[s.clone()].iter().map(off)));
         ranges.fold(0.0, f64::max)
     }
+}
+
+/// The distance of a place from an axis.
+fn off_axis(place: &Vec3, at: &Vec3, axis: &Vec3) -> f64 {
+    let arm = place - at;
+    (arm - axis * arm.dot(axis)).norm()
+}
+
+/// The largest distance of places from an axis.
+fn farthest(places_mm: &[Vec3], at: &Vec3, axis: &Vec3) -> f64 {
+    places_mm.iter().map(|p| off_axis(p, at, axis)).fold(0.0, f64::max)
+}
+
+/// The diameter of the smallest cylinder of this direction around places.
+fn narrowest_about(places_mm: &[Vec3], direction: &Vec3) -> Result<f64, Error> {
+    let [x, y] = across(direction);
+    let flat: Vec<[f64; 2]> = places_mm.iter().map(|p| [p.dot(&x), p.dot(&y)]).collect();
+    Ok(2.0 * Fitter::default().enclosing_radius_mm(&flat)?)
 }
 
 /// The largest value less the smallest.

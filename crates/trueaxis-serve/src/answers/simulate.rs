@@ -20,6 +20,7 @@ use trueaxis::files::disk;
 use trueaxis::input::Diagnostics;
 use trueaxis::questions::{MachineChoice, ProgramChoice, Simulate};
 use trueaxis::report::{Simulation, SimulationDocument};
+use trueaxis::simulate::collide::BodyModel;
 use trueaxis::simulate::{self, Colour, Findings, Observer, Progress, Recorder, Stop};
 
 /// Columns of a picture of curves.
@@ -73,9 +74,7 @@ impl Request for SimulateRequest {
             Some(machined) => machined.bodies(&simulation.setup.bodies),
             None => simulation.setup.bodies.clone(),
         };
-        let on_workpiece = bodies.iter().map(SurfaceEntry::from).collect();
-        let answer =
-            SimulateAnswer { on_workpiece, ..answer(&simulated, &simulation, &found, &problems) };
+        let answer = answer(&simulated, &simulation, (&found, &bodies), &problems);
         Ok(Reply::frame(&answer, vec![("corners_mm", corners(&bodies))]))
     }
 }
@@ -126,7 +125,7 @@ fn sources(
 fn answer<'a>(
     (number, simulated): &'a (u64, Arc<Simulated>),
     simulation: &'a simulate::Job,
-    found: &'a Findings,
+    (found, bodies): (&'a Findings, &'a [BodyModel]),
     problems: &'a Diagnostics,
 ) -> SimulateAnswer<'a> {
     let Simulated { machine, recording, programs } = &**simulated;
@@ -144,7 +143,7 @@ fn answer<'a>(
         bodies: machine.bodies().iter().map(|b| b.name.to_string()).collect(),
         document: SimulationDocument::of(&Simulation::of(simulation, found)),
         tools: tools.map(|(number, tool)| SetUpToolEntry::of(*number, tool)).collect(),
-        on_workpiece: Vec::new(),
+        on_workpiece: bodies.iter().map(SurfaceEntry::from).collect(),
         diagnostics: entries(problems),
         simulation: *number,
     }
