@@ -14,6 +14,20 @@ fn block(resolution_mm: f64) -> Stock {
     Stock::block(&Vec3::zeros(), &Vec3::new(40.0, 30.0, 10.0), resolution_mm).expect("a block")
 }
 
+/// The same bits on one thread and on several.
+#[test]
+fn law_threads_do_not_matter_to_stock() {
+    let ball = Cutter::ball(12.0, 40.0).expect("a ball");
+    let poses: Vec<ToolPose> = (0..=700).map(|k| pose(0.06 * f64::from(k), 15.0, 4.0)).collect();
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        let mut stock = block(0.5);
+        let taken = pool.install(|| stock.cut(&ball, &poses));
+        (taken, stock.volumes_mm3())
+    };
+    assert_eq!(on(1), on(3));
+}
+
 /// The twelve triangles of a box.
 fn cuboid(low: Vec3, high: Vec3) -> Vec<[Vec3; 3]> {
     let corner =

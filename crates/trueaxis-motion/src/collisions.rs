@@ -21,6 +21,7 @@ pub struct Collisions {
     /// Shape and tip of each tool that is known.
     tools: BTreeMap<u32, ToolShape>,
     nearness: Nearness,
+    stock_is_cut: bool,
     scene: Scene,
     tool: u32,
     before: Option<(Command, f64)>,
@@ -61,6 +62,7 @@ impl Collisions {
             attached: setup.bodies.clone(),
             tools,
             nearness: setup.nearness,
+            stock_is_cut: false,
             scene,
             tool: 0,
             before: None,
@@ -70,6 +72,13 @@ impl Collisions {
             ended_at: None,
             log: Log::default(),
         })
+    }
+
+    /// The same where the stock is cut: what the tool does in it is asked of [`Machining`](super::Machining). The bodies of the machine
+    /// are still watched against the stock as it was before.
+    #[must_use]
+    pub fn beside_cut_stock(self) -> Self {
+        Self { stock_is_cut: true, ..self }
     }
 
     /// The error that a part of the path was not checked, if that is so. The check is too much work where a body is
@@ -135,7 +144,10 @@ impl Collisions {
             to: &node.command,
             clearance_mm: self.nearness.clearance_mm,
             resolution_mm: self.nearness.resolution_mm,
-            allowed: Allowed { cutter_in_stock: !node.is_rapid() },
+            allowed: Allowed {
+                cutter_in_stock: !node.is_rapid(),
+                tool_in_stock: self.stock_is_cut,
+            },
         };
         let poses = |command: &Command| machine.body_poses(command, &ErrorValues::default());
         self.contacts.clear();

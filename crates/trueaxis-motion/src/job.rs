@@ -1,6 +1,6 @@
 //! From files to results: used by the command line and by the window.
 
-use super::collide::{BodyModel, Role, load_models};
+use super::collide::{BodyModel, load_models};
 use super::program::program_of;
 use super::{
     AxisWatch, Batch, Collisions, Drift, Issue, IssueKind, IssueList, Machined, Machining,
@@ -109,13 +109,6 @@ impl Job {
         Collisions::watch(&self.machine, self.models.clone(), &self.setup)
     }
 
-    /// The same where the stock is cut: what goes through it is asked of [`Machining`].
-    pub fn collisions_beside_stock(&self) -> Option<Collisions> {
-        let mut setup = self.setup.clone();
-        setup.bodies.retain(|b| !matches!(b.role, Role::Stock | Role::Part));
-        Collisions::watch(&self.machine, self.models.clone(), &setup)
-    }
-
     /// Simulates; `collisions` are looked for if they are given, `observers` look on.
     pub fn run(
         &self,
@@ -154,11 +147,15 @@ impl Job {
         if let Some(collisions) = &collisions {
             run.problems.append(collisions.problems(&run.programs));
         }
-        let machined = machining.as_mut().map(Machining::machined);
-        if let Some(machining) = &machining {
-            run.problems.append(machining.problems(&run.programs));
-        }
-        let logs = [Some(watch.log), collisions.map(|c| c.log), machining.map(|m| m.log)];
+        let (machined, log) = match machining {
+            Some(machining) => {
+                let (machined, log, problems) = machining.finish(&run.programs);
+                run.problems.append(problems);
+                (Some(machined), Some(log))
+            }
+            None => (None, None),
+        };
+        let logs = [Some(watch.log), collisions.map(|c| c.log), log];
         let issues = IssueList::of(logs.into_iter().flatten());
         self.warn_outside_travel(&summary, &issues, &mut run);
         Findings { run, summary, issues, drift, machined }

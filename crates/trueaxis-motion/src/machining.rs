@@ -9,7 +9,7 @@
 use super::collide::{BodyModel, Mesh, Role};
 use super::issues::{IssueKind, Log};
 use super::setup::{SetUp, SetUpTool};
-use super::{Batch, Observer};
+use super::{Batch, Densify, Observer};
 use std::collections::BTreeMap;
 use trueaxis_cut::stock::{Step, Stock, StockError, Taken};
 use trueaxis_cut::{Cutter, ToolPose};
@@ -142,8 +142,7 @@ pub struct Machining {
     gouged_mm3: f64,
     /// Tools whose shape is not known, with the block where they come and the reason.
     unknown: BTreeMap<u32, (Origin, String)>,
-    /// The issues that were found.
-    pub log: Log,
+    log: Log,
 }
 
 impl Machining {
@@ -168,7 +167,8 @@ impl Machining {
         if let Some(part) = body(Role::Part) {
             cut = cut.with_part(&placed(part)).map_err(|e| refused(&part.name, e))?;
         }
-        let diagonal_mm = extent(&triangles).norm();
+        let [low, high] = cut.corners_mm();
+        let diagonal_mm = (high - low).norm();
         let tool = |(number, tool): (&u32, &SetUpTool)| {
             (*number, Tool::of(*number, tool).and_then(|tool| tool.fits(diagonal_mm)))
         };
@@ -192,22 +192,34 @@ impl Machining {
         })
     }
 
-    /// What became of the stock, after the last pose.
-    pub fn machined(&mut self) -> Machined {
-        self.finish();
-        let excess_mm3 = self.stock.excess_mm3();
-        let origin = |(program, line): (u32, u32)| Origin { program, line };
-        Machined {
-            stock: self.stock.clone(),
-            before_mm3: self.before_mm3,
-            gouged_mm3: excess_mm3.map(|_| self.gouged_mm3),
-            excess_mm3,
-            blocks: self.blocks.iter().map(|(at, block)| (origin(*at), *block)).collect(),
+    /// Whether a path is drawn finely enough: by a tenth of what the stock resolves.
+    pub fn follows(&self, densify: &Densify) -> bool {
+        match *densify {
+            Densify::Tolerance { chord_mm, .. } | Densify::Places { chord_mm, .. } => {
+                chord_mm <= 0.1 * self.stock.resolution_mm()
+            }
+            Densify::Off | Densify::Count { .. } => false,
         }
     }
 
-    /// The errors that a tool of unknown shape came; `programs` are those of the run.
-    pub fn problems(&self, programs: &[String]) -> Diagnostics {
+    /// What became of the stock after the last pose, the issues, and the errors; `programs` are those of the run.
+    pub fn finish(mut self, programs: &[String]) -> (Machined, Log, Diagnostics) {
+        self.flush();
+        let problems = self.problems(programs);
+        let excess_mm3 = self.stock.excess_mm3();
+        let origin = |(program, line): (u32, u32)| Origin { program, line };
+        let machined = Machined {
+            stock: self.stock,
+            before_mm3: self.before_mm3,
+            gouged_mm3: excess_mm3.map(|_| self.gouged_mm3),
+            excess_mm3,
+            blocks: self.blocks.into_iter().map(|(at, block)| (origin(at), block)).collect(),
+        };
+        (machined, self.log, problems)
+    }
+
+    /// Tools of unknown shape, and a stock that was not cut to the end.
+    fn problems(&self, programs: &[String]) -> Diagnostics {
         let mut problems = Diagnostics::new();
         for (number, (origin, why)) in &self.unknown {
             let place = place_of(*origin, programs);
@@ -227,7 +239,7 @@ impl Machining {
     }
 
     /// Cuts by the poses that are still waiting.
-    fn finish(&mut self) {
+    fn flush(&mut self) {
         let poses = std::mem::take(&mut self.poses);
         let moments = std::mem::take(&mut self.moments);
         let Some(Ok(tool)) = self.tools.get(&self.tool) else { return };
@@ -262,21 +274,13 @@ impl Machining {
         match question {
             Question::Shank if is_inside => {
                 let first = format!("shank of {tool}");
-                self.log.note_at(
-                    IssueKind::Collision { first, second: STOCK.to_owned() },
-                    at,
-                    0.0,
-                    0.0,
-                );
+                let kind = IssueKind::Collision { first, second: STOCK.to_owned() };
+                self.log.note_at(kind, at, 0.0, 0.0);
             }
             Question::Rapid if is_inside => {
                 let first = tool.to_owned();
-                self.log.note_at(
-                    IssueKind::RapidInStock { first, second: STOCK.to_owned() },
-                    at,
-                    0.0,
-                    0.0,
-                );
+                let kind = IssueKind::RapidInStock { first, second: STOCK.to_owned() };
+                self.log.note_at(kind, at, 0.0, 0.0);
             }
             Question::Shank | Question::Rapid => {}
             Question::Taken => {
@@ -321,20 +325,18 @@ impl Machining {
         let lasts_s = (time_s - from_s) / count;
         for k in 1..=count as usize {
             let part = k as f64 / count;
-            let axis = from.axis + (to.axis - from.axis) * part;
-            let tip_mm = from.tip_mm + (to.tip_mm - from.tip_mm) * part;
-            self.poses.push(ToolPose { tip_mm, axis: axis.normalize() });
+            self.poses.push(from.towards(&to, part));
             let time_s = from_s + (time_s - from_s) * part;
             self.moments.push(Moment { origin, time_s, lasts_s, is_rapid });
             if self.poses.len() >= CHUNK {
-                self.finish();
+                self.flush();
             }
         }
     }
 
-    /// Another tool comes; its way to its first place is not one of it.
+    /// Another tool comes; its path begins where it is then.
     fn change(&mut self, number: u32, origin: Origin) {
-        self.finish();
+        self.flush();
         self.tool = number;
         self.before = None;
         match self.tools.get(&number) {

@@ -46,6 +46,15 @@ fn values(
     part.evaluate(&deviation_mm).expect("values")
 }
 
+/// The values after a small rigid motion of the whole part.
+fn values_of_moved(asked: &[(&str, &str, &str)]) -> Vec<f64> {
+    let part = part(asked);
+    let (shift, turn) = (Vec3::new(3e-3, -4e-3, 2e-3), Vec3::new(2e-5, -1e-5, 3e-5));
+    let moved = |p: &SurfacePoint| p.normal.dot(&(shift + turn.cross(&p.point_mm)));
+    let deviation_mm: Vec<f64> = part.features.iter().flat_map(|f| &f.points).map(moved).collect();
+    part.evaluate(&deviation_mm).expect("values")
+}
+
 fn close(found: &[f64], due: &[f64], to: f64) {
     assert_eq!(found.len(), due.len());
     for (found, due) in found.iter().zip(due) {
@@ -166,11 +175,7 @@ fn law_a_rigid_motion_of_the_part_changes_places_only() {
         ("diameter", "hole", ""),
         ("position", "hole", ""),
     ];
-    let part = part(&asked);
-    let (shift, turn) = (Vec3::new(3e-3, -4e-3, 2e-3), Vec3::new(2e-5, -1e-5, 3e-5));
-    let moved = |p: &SurfacePoint| p.normal.dot(&(shift + turn.cross(&p.point_mm)));
-    let deviation_mm: Vec<f64> = part.features.iter().flat_map(|f| &f.points).map(moved).collect();
-    let found = part.evaluate(&deviation_mm).expect("values");
+    let found = values_of_moved(&asked);
     close(&found[..5], &[0.0; 5], 3e-6);
     assert!(found[5] > 8e-3, "{found:?}");
 }
@@ -187,11 +192,7 @@ fn law_a_datum_system_moves_with_the_part() {
         ("perpendicularity", "wall", "base|hole"),
         ("angularity", "slope", "base|wall"),
     ];
-    let part = part(&asked);
-    let (shift, turn) = (Vec3::new(3e-3, -4e-3, 2e-3), Vec3::new(2e-5, -1e-5, 3e-5));
-    let moved = |p: &SurfacePoint| p.normal.dot(&(shift + turn.cross(&p.point_mm)));
-    let deviation_mm: Vec<f64> = part.features.iter().flat_map(|f| &f.points).map(moved).collect();
-    close(&part.evaluate(&deviation_mm).expect("values"), &[0.0; 7], 6e-6);
+    close(&values_of_moved(&asked), &[0.0; 7], 6e-6);
 }
 
 /// The wall leans by 200 µrad about Z: as the second datum it turns the frame, and the axis of the shaft, 5 mm off the middle of the wall, is
@@ -251,8 +252,9 @@ fn law_straightness_and_the_run_out_of_a_face() {
 fn datums_that_do_not_do_are_refused_by_name() {
     let refused = |asked: (&str, &str, &str), code: &str| {
         let (kind, of, datum) = asked;
+        let beside = "[feature.beside]\ncylinder = { at = \"22 5 60 mm\", axis = \"0 0 1\", diameter = \"30 mm\", length = \"40 mm\" }\n";
         let text = format!(
-            "{FEATURES}[[characteristic]]\n{kind} = \"20 um\"\nof = \"{of}\"\ndatum = \"{datum}\"\n"
+            "{FEATURES}{beside}[[characteristic]]\n{kind} = \"20 um\"\nof = \"{of}\"\ndatum = \"{datum}\"\n"
         );
         let source = SourceText::from(&Files::none(), "p.toml", &text);
         assert!(source.read(|root| Part::read(root, Path::new(""))).is_none(), "{asked:?}");
@@ -272,4 +274,7 @@ fn datums_that_do_not_do_are_refused_by_name() {
     refused(("parallelism", "slope", "base"), "wrong-angle");
     refused(("flatness", "top", "base"), "wrong-feature");
     refused(("total_run_out", "shaft", "hole|base"), "bad-datum");
+    refused(("total_run_out", "wall", "hole"), "wrong-angle");
+    refused(("coaxiality", "beside", "hole"), "wrong-place");
+    refused(("circular_run_out", "beside", "hole"), "wrong-place");
 }

@@ -476,7 +476,12 @@ fn rapid_through_stock_is_an_issue() {
     // The tip is 210 mm below Z: at Z = 215 it stands 5 mm deep in the stock that ends at 10 mm.
     let poses = machine.body_poses(&[0.0, 0.0, 215.0, 0.0, 0.0, 0.0], &ErrorValues::default());
     let mut contacts = Vec::new();
-    scene.check(&poses, 1.0, Allowed { cutter_in_stock: true }, &mut contacts);
+    scene.check(
+        &poses,
+        1.0,
+        Allowed { cutter_in_stock: true, tool_in_stock: false },
+        &mut contacts,
+    );
     assert_eq!(names(&contacts), Vec::<String>::new());
     scene.check(&poses, 1.0, Allowed::default(), &mut contacts);
     assert_eq!(names(&contacts), ["cutter / stock"]);
@@ -484,7 +489,12 @@ fn rapid_through_stock_is_an_issue() {
     // Wholly inside a large one: no surfaces meet, yet both are in it.
     let mut scene = Scene::new(&machine, Vec::new(), &tool(machine.tip_mm()), vec![stock(900.0)]);
     contacts.clear();
-    scene.check(&poses, 0.0, Allowed { cutter_in_stock: true }, &mut contacts);
+    scene.check(
+        &poses,
+        0.0,
+        Allowed { cutter_in_stock: true, tool_in_stock: false },
+        &mut contacts,
+    );
     assert_eq!(names(&contacts), ["holder / stock"]);
 }
 

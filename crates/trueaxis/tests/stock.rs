@@ -8,7 +8,7 @@ use trueaxis::input::{Diagnostics, Files};
 use trueaxis::machine::Machine;
 use trueaxis::simulate::report::issue_code;
 use trueaxis::simulate::{
-    Densify, Findings, Job, Machined, Machining, Options, ProgramFiles, Timing,
+    Collisions, Densify, Findings, Job, Machined, Machining, Options, ProgramFiles, Timing,
 };
 
 const MILL: &str = "[machine]\nname = \"mill\"\nchain = \"w b X Y Z t\"\n\
@@ -27,8 +27,8 @@ fn program(blocks: &str) -> String {
     )
 }
 
-fn job(set_up: &str, program: &str, options: Options) -> Job {
-    let texts = [("m.toml", MILL), ("p.nc", program), ("p.setup.toml", set_up)];
+fn job(machine: &str, set_up: &str, program: &str, options: Options) -> Job {
+    let texts = [("m.toml", machine), ("p.nc", program), ("p.setup.toml", set_up)];
     let texts = texts.iter().map(|(name, text)| (PathBuf::from(name), (*text).to_owned()));
     let files = Files::none().with_texts(texts);
     let (machine, mut problems) = Machine::read(&files, Path::new("m.toml"));
@@ -42,6 +42,7 @@ fn job(set_up: &str, program: &str, options: Options) -> Job {
         control: None,
     };
     let job = machine.and_then(|m| Job::read(m, &files, options, &mut problems));
+    let job = job.map(|job| job.with_models(Path::new("m.toml"), &mut problems));
     job.unwrap_or_else(|| panic!("{:?}", words(&problems)))
 }
 
@@ -50,9 +51,13 @@ fn words(problems: &Diagnostics) -> Vec<String> {
 }
 
 fn run_by(set_up: &str, blocks: &str, options: Options) -> Findings {
-    let job = job(set_up, &program(blocks), options);
+    run_job(&job(MILL, set_up, &program(blocks), options))
+}
+
+fn run_job(job: &Job) -> Findings {
     let machining = Machining::watch(&job.setup).expect("a stock");
-    let found = job.run_on(job.collisions_beside_stock(), Some(machining), &mut []);
+    let collisions = job.collisions().map(Collisions::beside_cut_stock);
+    let found = job.run_on(collisions, Some(machining), &mut []);
     assert!(!found.run.problems.has_errors(), "{:?}", words(&found.run.problems));
     found
 }
@@ -161,19 +166,79 @@ fn law_what_should_not_matter_to_a_program() {
     near(machined(&run_by(&fine, bore, Options::default())).total().removed_mm3, due, 1e-3);
 }
 
+/// A head that is wider than its short tool is long meets the stock: the bodies of the machine are watched, whatever the tool may cut.
+#[test]
+fn law_the_head_of_the_machine_is_watched_against_the_stock() {
+    let machine = MILL.to_owned()
+        + "[[model]]\nbody = \"Z\"\nname = \"head\"\nbox = \"60 60 20 mm\"\nplacement = \"0 0 10 mm\"\n";
+    let by = |length: &str, blocks: &str| {
+        let set_up = SET_UP.replace("90 mm", length);
+        critical(&run_job(&job(&machine, &set_up, &program(blocks), Options::default())))
+    };
+    assert_eq!(by("90 mm", SLOT), []);
+    // 3 mm of tool below the head, which reaches 10 mm over the block where it goes 4 mm down.
+    assert_eq!(by("3 mm", SLOT), [("collision", 7)]);
+}
+
+/// A ball does not mind how it leans where only its lower half cuts: five axes at any direction remove what three do.
+#[test]
+fn law_a_leaning_ball_removes_what_an_upright_one_does() {
+    let machine = "[machine]\nname = \"table\"\nchain = \"w C' A' b X Y Z t\"\n";
+    let set_up = SET_UP
+        .replace("diameter = \"10 mm\"\n", "diameter = \"10 mm\"\ncorner_radius = \"5 mm\"\n")
+        .replace("0.5 mm", "0.2 mm");
+    let removed = |lean: f64, turn: f64| {
+        let text = |axis: [f64; 3]| {
+            // The tip that keeps the centre of the ball on its line, 5 mm above it along the axis of the tool.
+            let tip = |x: f64, z: f64| {
+                let [x, y, z] = [x - 5.0 * axis[0], -5.0 * axis[1], z + 5.0 - 5.0 * axis[2]];
+                format!("X{x:.4} Y{y:.4} Z{z:.4}")
+            };
+            let (above, near, far) = (tip(-60.0, 30.0), tip(-60.0, -4.0), tip(60.0, -4.0));
+            format!(
+                "%\nO1\nG21 G17 G40 G80 G90 G94\nT1 M6\nG54 S8000 M3\nG0 A{lean} C{turn}\nG43.4 H1\nG0 {above}\nG1 {near} F2000\nG1 {far} F1200\nG49\nM30\n%\n"
+            )
+        };
+        let (a, c) = (lean.to_radians(), turn.to_radians());
+        let axis = [a.sin() * c.sin(), a.sin() * c.cos(), a.cos()];
+        let found = run_job(&job(machine, &set_up, &text(axis), Options::default()));
+        machined(&found).total().removed_mm3
+    };
+    let upright = removed(0.0, 0.0);
+    // A segment of a circle of radius 5, 4 mm high, along 80 mm.
+    let due = 80.0 * (25.0 * 0.2_f64.acos() - 24.0_f64.sqrt());
+    // Lines along the slot, 0.2 mm apart, count by themselves 0.6 % more than that.
+    near(upright, due, 3e-3);
+    for (lean, turn) in [(10.0, 0.0), (10.0, 70.0), (8.0, 200.0)] {
+        near(removed(lean, turn), due, 3e-3);
+    }
+}
+
+/// A path that is drawn too coarsely is not cut along.
+#[test]
+fn a_stock_asks_for_a_fine_path() {
+    let job = job(MILL, SET_UP, &program(SLOT), Options::default());
+    let machining = Machining::watch(&job.setup).expect("a stock");
+    let by = |chord_mm| Densify::Tolerance { chord_mm, angle_rad: 0.01, spacing_mm: 10.0 };
+    assert!(machining.follows(&Densify::default()) && machining.follows(&by(0.05)));
+    assert!(!machining.follows(&by(0.051)) && !machining.follows(&Densify::Off));
+}
+
 #[test]
 fn what_cannot_be_cut_is_refused() {
     let refused = |set_up: &str| {
-        let job = job(set_up, &program(SLOT), Options::default());
+        let job = job(MILL, set_up, &program(SLOT), Options::default());
         Machining::watch(&job.setup).err().map(|(message, _)| message).unwrap_or_default()
     };
     let without = SET_UP.split("[stock]").next().expect("a set-up");
     assert!(refused(without).contains("states no stock"));
     assert!(refused(&SET_UP.replace("0.5 mm", "0.00001 mm")).contains("lines"));
-    // A tool without a diameter.
-    let job =
-        job(&SET_UP.replace("diameter = \"10 mm\"\n", ""), &program(SLOT), Options::default());
-    let machining = Machining::watch(&job.setup).expect("a stock");
-    let found = job.run_on(None, Some(machining), &mut []);
-    assert!(found.run.problems.iter().any(|p| p.code == "unknown-cutter"));
+    // A tool without a diameter, and one of 10 m.
+    for diameter in ["", "diameter = \"10 m\"\n"] {
+        let set_up = SET_UP.replace("diameter = \"10 mm\"\n", diameter);
+        let job = job(MILL, &set_up, &program(SLOT), Options::default());
+        let machining = Machining::watch(&job.setup).expect("a stock");
+        let found = job.run_on(None, Some(machining), &mut []);
+        assert!(found.run.problems.iter().any(|p| p.code == "unknown-cutter"), "{diameter}");
+    }
 }

@@ -118,6 +118,8 @@ impl ToolShape {
 pub struct Allowed {
     /// The tool is feeding: its cutter may touch stock and part. In rapid it may not.
     pub cutter_in_stock: bool,
+    /// The stock is cut, and what the tool does in it is asked of [`Machining`](crate::Machining).
+    pub tool_in_stock: bool,
 }
 
 /// Two bodies that are closer than requested.
@@ -383,7 +385,9 @@ impl Scene {
     pub(super) fn is_allowed(&self, pair: &Pair, allowed: Allowed) -> bool {
         let roles = [pair.first, pair.second].map(|m| self.members[m].role);
         let cut = roles.contains(&Role::Stock) || roles.contains(&Role::Part);
-        allowed.cutter_in_stock && cut && roles.contains(&Role::Cutter)
+        let cutter = allowed.cutter_in_stock || allowed.tool_in_stock;
+        let holder = allowed.tool_in_stock;
+        cut && (cutter && roles.contains(&Role::Cutter) || holder && roles.contains(&Role::Holder))
     }
 
     /// How far the pair is still apart, at least, whatever path it took since.

@@ -64,16 +64,25 @@ impl Simulate {
         let is_cut = self.stock || job.setup.stock_resolution_mm.is_some();
         let machining = match is_cut.then(|| Machining::watch(&job.setup)) {
             None => None,
-            Some(Ok(machining)) => Some(machining),
+            Some(Ok(machining)) if machining.follows(&job.options.densify) => Some(machining),
+            // Not asked for, and this run draws its path too coarsely for it.
+            Some(Ok(_)) if !self.stock => None,
+            Some(Ok(_)) => {
+                let message = "the path of this run leaves the programmed one by more than a tenth of the resolution of the stock";
+                let hint = "leave out --no-densify and --by-count, or state a smaller --chord";
+                let place = Place::whole(job.program.file());
+                problems.error("coarse-path", place, message.to_owned(), hint);
+                return None;
+            }
             Some(Err((message, hint))) => {
                 problems.error("no-stock", Place::whole(job.program.file()), message, &hint);
                 return None;
             }
         };
-        let collisions = match (self.no_collisions, is_cut) {
-            (true, _) => None,
-            (false, true) => job.collisions_beside_stock(),
-            (false, false) => job.collisions(),
+        let collisions = if self.no_collisions { None } else { job.collisions() };
+        let collisions = match machining {
+            Some(_) => collisions.map(Collisions::beside_cut_stock),
+            None => collisions,
         };
         Some((collisions, machining))
     }

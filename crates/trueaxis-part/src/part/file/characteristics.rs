@@ -4,10 +4,13 @@ use super::positive;
 use crate::part::datum::{all_degrees, described, held};
 use crate::part::{Characteristic, Feature, Geometry, Kind, Limits};
 use trueaxis_form::placed::Freedom;
+use trueaxis_geometry::Vec3;
 use trueaxis_input::{Dimension, Item, Section};
 
 /// Directions of a nominal part that differ by less are the same. Unit: rad.
 const SAME_RAD: f64 = 1e-6;
+/// Nominal axes that lie nearer to each other are one. Unit: mm.
+const SAME_MM: f64 = 1e-3;
 
 pub(super) fn read_characteristic(
     section: &Section<'_>,
@@ -176,6 +179,9 @@ impl Asked<'_, '_> {
             }
             self.check_datum(datum, datums.len())?;
         }
+        if matches!(self.kind, Kind::Coaxiality | Kind::CircularRunOut | Kind::TotalRunOut) {
+            return self.check_axes(&self.features[datums[0]]);
+        }
         let free = self.freedom(datums)?;
         if kind.is_oriented() { self.check_angle(datums, &free) } else { self.check_place(&free) }
     }
@@ -222,6 +228,37 @@ impl Asked<'_, '_> {
         let message = format!("a {shape} is no datum of {}: `{}`", kind.name(), datum.name);
         let hint = "a cylinder or a hole, for directions a plane, in a system a sphere, too";
         self.refuse("wrong-feature", message, hint)
+    }
+
+    /// Nominal axes are one, and a face stands across it.
+    fn check_axes(&self, datum: &Feature) -> Option<()> {
+        let axes = self.of.geometry.direction().zip(datum.geometry.axis());
+        let Some((own, (at, axis))) = axes else { return Some(()) };
+        let (kind, name) = (self.kind.name(), &self.of.name);
+        if own.cross(&axis).norm() > SAME_RAD {
+            let angle = own.dot(&axis).abs().min(1.0).acos().to_degrees();
+            let message =
+                format!("{kind}: `{name}` stands at {angle:.3}° to the axis of `{}`", datum.name);
+            return self.refuse(
+                "wrong-angle",
+                message,
+                "an axis along that of the datum, a face across it",
+            );
+        }
+        let arm = self.of.geometry.axis().map_or(Vec3::zeros(), |(place, _)| place - at);
+        let off_mm = (arm - axis * arm.dot(&axis)).norm();
+        if off_mm > SAME_MM {
+            let message = format!(
+                "{kind}: the axis of `{name}` lies {off_mm:.3} mm beside that of `{}`",
+                datum.name
+            );
+            return self.refuse(
+                "wrong-place",
+                message,
+                "coaxial features only; position for others",
+            );
+        }
+        Some(())
     }
 
     /// What the datums leave free; each of them must hold something.
