@@ -82,6 +82,28 @@ fn law_a_mesh_is_what_it_encloses() {
     }
 }
 
+/// A corner that a plane cuts off a cube: a sixth of it; each of its lines along X ends on that plane.
+#[test]
+fn law_a_tetrahedron_by_hand() {
+    let [o, x, y, z] =
+        [[0.0; 3], [30.0, 0.0, 0.0], [0.0, 24.0, 0.0], [0.0, 0.0, 18.0]].map(Vec3::from);
+    let faces = [[o, y, x], [o, x, z], [o, z, y], [x, y, z]];
+    let stock = Stock::of_mesh(&faces, 0.25).expect("a mesh");
+    for volume in stock.volumes_mm3() {
+        assert!((volume / (30.0 * 24.0 * 18.0 / 6.0) - 1.0).abs() < 2e-3, "{volume}");
+    }
+    for (at, material) in stock.lines(0) {
+        let due = 30.0 * (1.0 - at.y / 24.0 - at.z / 18.0);
+        match material {
+            [] => assert!(due < 1e-9, "{at}"),
+            [[low, high]] => {
+                assert!(low.abs() < 1e-9 && (high - due).abs() < 1e-9, "{at} {material:?}")
+            }
+            _ => panic!("{at} {material:?}"),
+        }
+    }
+}
+
 #[test]
 fn what_is_no_stock_is_refused() {
     let (low, high) = (Vec3::zeros(), Vec3::new(40.0, 30.0, 10.0));

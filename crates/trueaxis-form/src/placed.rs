@@ -83,16 +83,6 @@ impl Freedom {
         self.moving(surface).degrees() > 0
     }
 
-    /// Together with all shifts.
-    pub fn with_shifts(&self) -> Self {
-        let turning = |t: &Twist| t.turn.norm() > 1e-9;
-        let zero = Vec3::zeros();
-        let turns = self.twists.iter().filter(|t| turning(t));
-        let turns = turns.map(|t| Twist { way: zero, turn: t.turn.normalize() });
-        let shifts = [Vec3::x(), Vec3::y(), Vec3::z()].map(|way| Twist { way, turn: zero });
-        Self { twists: shifts.into_iter().chain(turns).collect(), ..self.clone() }
-    }
-
     /// Whether a shift of the whole in this direction is among them.
     pub fn has_shift(&self, direction: &Vec3) -> bool {
         let shares = self.twists.iter().map(|t| t.way.dot(direction).powi(2));

@@ -233,7 +233,8 @@ impl Surface<'_> {
             return narrowest_about(&frame.seen(&self.median_line()?), &axis);
         }
         let seen = frame.seen(&self.places_mm);
-        let free = frame.free.with_shifts().moving(&held(self.feature));
+        // Shifts change no width.
+        let free = frame.free.moving(&held(self.feature));
         let zone = place(&seen, &free, &geometry.distances(), Criterion::MinimumZone)?;
         Ok(zone.high_mm - zone.low_mm)
     }
