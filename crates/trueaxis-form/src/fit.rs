@@ -20,6 +20,9 @@ pub struct Known {
     /// The normal of the plane that a circle or the profile of a line lies in; a line without one is a line in space,
     /// and the plane of a circle goes through the points.
     pub normal: Option<Vec3>,
+    /// A sphere, cylinder or cone that the points are very near to, such as the nominal one of a part within some hundredths of a millimetre:
+    /// the search begins there and nowhere else.
+    pub near: Option<Shape>,
 }
 
 /// How a result is proved to be the best.
@@ -149,7 +152,8 @@ pub fn fit_by(
     known: &Known,
     criteria: &[Criterion],
 ) -> Result<Fitted, Error> {
-    let cloud = Cloud { criteria: criteria.to_vec(), ..Cloud::new(element, points_mm, known)? };
+    let mut cloud = Cloud::new(element, points_mm, known)?;
+    cloud.criteria = criteria.to_vec();
     match (element, known.normal) {
         (Element::Line, Some(normal)) => lines::profile_line(&cloud, &normal),
         (Element::Line, None) => lines::space_line(&cloud),
@@ -166,6 +170,7 @@ struct Cloud {
     points: Vec<Vec3>,
     middle: Vec3,
     size: f64,
+    near: Option<Shape>,
 }
 
 impl Cloud {
@@ -188,7 +193,12 @@ impl Cloud {
             return Err(Error::Coincident);
         }
         let points: Vec<Vec3> = points_mm.iter().map(|p| (p - middle) / size).collect();
-        let cloud = Self { criteria: Vec::new(), points, middle, size };
+        let near = known.near.filter(|shape| shape.element == element).map(|shape| Shape {
+            point_mm: (shape.point_mm - middle) / size,
+            radius_mm: shape.radius_mm / size,
+            ..shape
+        });
+        let cloud = Self { criteria: Vec::new(), points, middle, size, near };
         if element != Element::Line {
             let spread = start::principal(&cloud.points);
             if spread[1].0.sqrt() <= (noise / size).max(1e-12) * count.sqrt() {
@@ -411,6 +421,7 @@ fn contact_reference(
     // The zone of a line in space is the smallest cylinder around the points.
     let wanted = if element == Element::Line { Criterion::MinimumCircumscribed } else { criterion };
     let more = match element {
+        _ if cloud.near.is_some() => Vec::new(),
         Element::Plane => Vec::new(),
         _ => disturbed(element, wanted, cloud, &starts[0]),
     };

@@ -23,7 +23,7 @@ struct Case {
 fn wrong(case: &Case) -> Vec<String> {
     let element = Element::ALL.into_iter().find(|e| e.key() == case.element).unwrap();
     let points: Vec<Vec3> = case.points.iter().map(|p| Vec3::from(*p)).collect();
-    let known = Known { normal: case.normal.map(Vec3::from) };
+    let known = Known { normal: case.normal.map(Vec3::from), ..Known::default() };
     let fitted = fit(element, &points, &known).unwrap();
     let mut found = Vec::new();
     let mut compare = |what: &str, ours: f64, theirs: Option<f64>, [better, allowed]: [f64; 2]| {

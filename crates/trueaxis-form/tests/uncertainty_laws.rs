@@ -41,7 +41,7 @@ fn ideal(element: Element, form: f64, count: u32) -> Vec<Vec3> {
 }
 
 fn known(element: Element) -> Known {
-    Known { normal: (element == Element::Line).then(Vec3::y) }
+    Known { normal: (element == Element::Line).then(Vec3::y), ..Known::default() }
 }
 
 fn noisy(points: &[Vec3], u: f64, random: &mut SplitMix64) -> Vec<Vec3> {
@@ -238,7 +238,8 @@ fn a_short_arc_is_uncertain_and_known_to_be_short() {
         .map(|i| f64::from(i).to_radians())
         .map(|a| Vec3::new(100.0 * a.cos(), 100.0 * a.sin(), 0.0))
         .collect();
-    let f = fit(Element::Circle, &arc, &Known { normal: Some(Vec3::z()) }).unwrap();
+    let f =
+        fit(Element::Circle, &arc, &Known { normal: Some(Vec3::z()), ..Known::default() }).unwrap();
     let cover = checks::cover(&f, &arc).angle_rad.unwrap();
     assert!((cover.to_degrees() - 20.0).abs() < 1e-6);
     let u = f.uncertainty(Some(0.001)).unwrap();

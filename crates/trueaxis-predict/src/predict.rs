@@ -30,7 +30,7 @@ pub use correction::{Correction, corrections};
 pub use cutting::{Cutting, DatumAxis, Reference};
 pub use feed::ConditionResult;
 pub use judge::{Bench, Judge};
-pub use monte_carlo::{Sampling, Spread, monte_carlo};
+pub use monte_carlo::{Sampling, Spread, draw, monte_carlo};
 pub use program::CutProgram;
 pub use sensitivity::{Sensitivity, propagate, sensitivities};
 pub use servo::{AxisServo, Known, Servo};

@@ -190,7 +190,7 @@ fn evaluate_points(
     normal: Option<Vec3>,
     problems: &mut Diagnostics,
 ) -> Option<FormEvaluation> {
-    let known = Known { normal };
+    let known = Known { normal, ..Known::default() };
     let read = match fit(request.element, &points_mm, &known) {
         Ok(fitted) => fitted,
         Err(error) => {

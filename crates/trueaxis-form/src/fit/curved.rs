@@ -4,7 +4,7 @@ use super::{Cloud, Fitted, Spread, contact_reference, range};
 use crate::chebyshev::Start;
 use crate::least_squares::{Residuals, solve};
 use crate::surface::{Family, Frame, MOST, Place};
-use crate::{Criterion, Element, Error, start};
+use crate::{Criterion, Element, Error, Shape, start};
 use nalgebra::DMatrix;
 use trueaxis_geometry::{Mat3, Vec3};
 
@@ -83,8 +83,22 @@ fn least(family: Family, points: &[Vec3], mut place: Place) -> Option<Least> {
     found
 }
 
+/// The place of a shape, its origin next to the middle of the points.
+fn place_of(shape: &Shape) -> Place {
+    let (sin, cos) = shape.half_angle_rad.sin_cos();
+    let along = -shape.point_mm.dot(&shape.direction);
+    let frame = Frame::new(shape.point_mm + shape.direction * along, &shape.direction);
+    // g = ρ cos ψ − h sin ψ is R cos ψ at the point of the shape.
+    let offset = shape.radius_mm * cos + along * sin;
+    Place { frame, offset, half_angle: shape.half_angle_rad }
+}
+
 /// First guesses of a curved element.
-fn guesses(element: Element, points: &[Vec3]) -> Vec<Place> {
+fn guesses(element: Element, cloud: &Cloud) -> Vec<Place> {
+    let points = &cloud.points;
+    if let Some(near) = &cloud.near {
+        return vec![place_of(near)];
+    }
     if element == Element::Sphere {
         let sphere = start::sphere(points);
         let place = |(centre, offset)| {
@@ -104,7 +118,7 @@ fn guesses(element: Element, points: &[Vec3]) -> Vec<Place> {
 pub(super) fn curved(element: Element, cloud: &Cloud) -> Result<Fitted, Error> {
     let family = Family::of(element);
     let few = start::thinned(&cloud.points);
-    let tried = guesses(element, &cloud.points).into_iter();
+    let tried = guesses(element, cloud).into_iter();
     let mut tried: Vec<Least> = tried.filter_map(|g| least(family, &few, g)).collect();
     tried.retain(|l| l.squares.is_finite() && l.place.offset.is_finite());
     tried.sort_by(|a, b| a.squares.total_cmp(&b.squares));

@@ -127,6 +127,9 @@ impl Surface<'_> {
     /// The associated element, ISO 5459: the plane of the minimum zone, the axis of the largest inscribed cylinder of a hole,
     /// of the smallest circumscribed one of a shaft.
     pub(super) fn datum(&self) -> Result<Shape, Error> {
+        if let Some(found) = self.datum.get() {
+            return Ok(*found);
+        }
         let (kind, criterion) = match self.feature.geometry {
             Geometry::Plane { .. } => (Element::Plane, Criterion::MinimumZone),
             Geometry::Cylinder { is_hole: true, .. } => {
@@ -139,7 +142,8 @@ impl Surface<'_> {
             Geometry::Sphere { .. } => (Element::Sphere, Criterion::MinimumCircumscribed),
             _ => return Err(no_datum()),
         };
-        Ok(self.element(kind, criterion)?.shape)
+        let found = self.element(kind, criterion)?.shape;
+        Ok(*self.datum.get_or_init(|| found))
     }
 
     /// How the first datum moves the frame: by the smallest turn and by a shift.

@@ -1,6 +1,7 @@
 //! Features: nominal surfaces and the points on them that are checked.
 
 use std::ops::Range;
+use trueaxis_form::{Element, Shape};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::surface::SurfacePoint;
 
@@ -124,6 +125,20 @@ impl Geometry {
             }
             _ => None,
         }
+    }
+
+    /// The element of a cylinder or a sphere, from which a search for that of the cut surface begins.
+    pub(super) fn shape(&self) -> Option<Shape> {
+        let (element, point_mm, direction, radius_mm) = match *self {
+            Self::Cylinder { at_mm, axis, radius_mm, .. } => {
+                (Element::Cylinder, at_mm, axis, radius_mm)
+            }
+            Self::Sphere { at_mm, radius_mm, .. } => {
+                (Element::Sphere, at_mm, Vec3::zeros(), radius_mm)
+            }
+            _ => return None,
+        };
+        Some(Shape { element, point_mm, direction, radius_mm, half_angle_rad: 0.0 })
     }
 
     /// The normal of a plane, the direction of an axis.

@@ -4,6 +4,7 @@ use super::datum::{DatumFrame, all_degrees, held};
 use super::feature::across;
 use super::{Characteristic, Feature, Geometry, Kind, Part};
 use crate::Error;
+use std::cell::OnceCell;
 use std::ops::Range;
 use trueaxis_form::circle::Fitter;
 use trueaxis_form::placed::place;
@@ -16,6 +17,8 @@ pub(super) struct Surface<'a> {
     pub feature: &'a Feature,
     deviation_mm: &'a [f64],
     pub places_mm: Vec<Vec3>,
+    /// Its element as a datum, once it was asked for.
+    pub datum: OnceCell<Shape>,
 }
 
 /// Sections across an axis, in coordinates of their planes.
@@ -48,7 +51,7 @@ impl Part {
                 rest = others;
                 let places = feature.points.iter().zip(deviation_mm);
                 let places_mm = places.map(|(p, d)| p.point_mm + p.normal * *d).collect();
-                Surface { feature, deviation_mm, places_mm }
+                Surface { feature, deviation_mm, places_mm, datum: OnceCell::new() }
             })
             .collect();
         let mut systems = Systems { features: &self.features, found: Vec::new() };
@@ -143,7 +146,8 @@ fn element(
 
 impl Surface<'_> {
     pub(super) fn element(&self, kind: Element, criterion: Criterion) -> Result<Reference, Error> {
-        element(kind, criterion, &self.places_mm, &Known::default())
+        let near = self.feature.geometry.shape();
+        element(kind, criterion, &self.places_mm, &Known { near, ..Known::default() })
     }
 
     fn form(&self, kind: Element) -> Result<f64, Error> {
@@ -291,6 +295,6 @@ fn range(values: impl IntoIterator<Item = f64>) -> f64 {
 /// The least distance of two parallel planes around points, both along a direction.
 fn least_range(places_mm: &[Vec3], along: &Vec3) -> Result<f64, Error> {
     let flat: Vec<Vec3> = places_mm.iter().map(|p| p - along * p.dot(along)).collect();
-    let known = Known { normal: Some(*along) };
+    let known = Known { normal: Some(*along), ..Known::default() };
     Ok(element(Element::Line, Criterion::MinimumZone, &flat, &known)?.form_mm())
 }

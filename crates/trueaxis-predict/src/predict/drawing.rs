@@ -10,11 +10,13 @@
 //! ```
 
 mod budget;
+mod many;
 mod path;
 mod programmed;
 mod study;
 
 pub use budget::{ErrorEffect, effects};
+pub use many::{Drawn, ManyParts, cut_with};
 pub use path::{CutPath, Origin};
 pub use study::{PartStudy, is_part_study, read_part_study};
 
@@ -73,6 +75,8 @@ pub struct PartPrediction {
     pub features: Vec<CutFeature>,
     /// In the order of the part file.
     pub values: Vec<PartValue>,
+    /// The same on many machines, if the study asks for it.
+    pub drawn: Option<ManyParts>,
     /// Files of the program, by the number in [`Origin`].
     pub programs: Vec<String>,
     /// All characteristics together.
@@ -83,12 +87,16 @@ pub struct PartPrediction {
     pub errors_without_u: Vec<String>,
 }
 
-/// Cuts the part of a study and judges it.
+/// Cuts the part of a study and judges it. `progress` is called with the share of the Monte Carlo samples that are done, from any thread.
 ///
 /// # Errors
 /// A program that can't be run, a tool of unknown shape, points that no cutter reaches, points that are cut deeper than
 /// their nails reach, a machine whose errors are not known where it cuts.
-pub fn predict_part(study: &PartStudy, problems: &mut Diagnostics) -> Option<PartPrediction> {
+pub fn predict_part(
+    study: &PartStudy,
+    progress: &(dyn Fn(f64) + Sync),
+    problems: &mut Diagnostics,
+) -> Option<PartPrediction> {
     let zero = study.zero(problems)?;
     let mut path = CutPath::new(&study.job, &zero);
     let Findings { run, .. } = study.job.run(None, &mut [&mut path as &mut dyn Observer]);
@@ -124,9 +132,9 @@ pub fn predict_part(study: &PartStudy, problems: &mut Diagnostics) -> Option<Par
     let by_program = reached(study, &part, &nominal, problems)?;
     let by_program: Vec<f64> = by_program.iter().map(|c| c.deviation_mm).collect();
     let deviations: Vec<f64> = found.iter().map(|c| c.deviation_mm).collect();
-    let values =
-        budget::values((study, &part), &path, (&nails, &found), (&deviations, &by_program));
-    let values = match values {
+    let made = (&nails[..], &found[..]);
+    let values = budget::values((study, &part), &path, made, (&deviations, &by_program), progress);
+    let (values, drawn) = match values {
         Ok(values) => values,
         Err(why) => {
             problems.error(
@@ -158,6 +166,7 @@ pub fn predict_part(study: &PartStudy, problems: &mut Diagnostics) -> Option<Par
     Some(PartPrediction {
         features,
         values,
+        drawn,
         programs: run.programs,
         outcome,
         steps: path.steps(),

@@ -64,22 +64,40 @@ pub fn monte_carlo(
     if sampling.samples < 2 {
         return Err(Error::TooFewSamples(sampling.samples));
     }
-    let quantities = machine.uncertain_quantities().len();
+    let counts = [machine.uncertain_quantities().len(), judge.index_count()];
+    let indices = |factors: &[f64], bench: &mut Bench, indices: &mut [f64]| {
+        judge.indices(&|values, u| u.displaced(values, factors), bench, indices)
+    };
+    spreads(sampling, counts, &indices, progress)
+}
+
+/// The spread of each of many values of samples, by the number of factors of a sample and of its values. What a sample needs to
+/// work on is kept by its thread.
+pub(super) fn spreads<W: Default, E: Send>(
+    sampling: Sampling,
+    [factors, values]: [usize; 2],
+    evaluate: &(dyn Fn(&[f64], &mut W, &mut [f64]) -> Result<(), E> + Sync),
+    progress: &(dyn Fn(usize) + Sync),
+) -> Result<Vec<Spread>, E> {
     let done = AtomicUsize::new(0);
     let chunks = sampling.samples.div_ceil(CHUNK);
     // Each chunk keeps its own sums; they are added up in order afterwards. Memory stays bounded:
     // only the first KEPT samples are kept one by one.
     let results: Vec<Chunk> = (0..chunks)
         .into_par_iter()
-        .map_init(Bench::default, |bench, c| {
+        .map_init(W::default, |work, c| {
             let range = c * CHUNK..((c + 1) * CHUNK).min(sampling.samples);
             let length = range.len();
-            let chunk = draw_chunk(judge, quantities, (sampling.seed, range), bench);
+            let mut chunk = Chunk::of(values);
+            for sample in range {
+                let factors = draw(factors, sampling.seed, sample);
+                chunk.add(sample < KEPT, |found| evaluate(&factors, work, found))?;
+            }
             progress(done.fetch_add(length, Ordering::Relaxed) + length);
-            chunk
+            Ok(chunk)
         })
-        .collect::<Result<_, _>>()?;
-    Ok(summarise(&results, sampling.samples, judge.index_count()))
+        .collect::<Result<_, E>>()?;
+    Ok(summarise(&results, sampling.samples, values))
 }
 
 /// Sums of a run of samples.
@@ -90,36 +108,38 @@ struct Chunk {
     squares: Vec<f64>,
     /// The samples themselves, index after index, if they are among the first.
     kept: Vec<f64>,
+    /// Those of the present sample.
+    values: Vec<f64>,
 }
 
-fn draw_chunk(
-    judge: &Judge<'_>,
-    quantities: usize,
-    (seed, range): (u64, std::ops::Range<usize>),
-    bench: &mut Bench,
-) -> Result<Chunk, Error> {
-    let n = judge.index_count();
-    let mut chunk = Chunk { count: 0.0, mean: vec![0.0; n], squares: vec![0.0; n], kept: vec![] };
-    let mut indices = vec![0.0; n];
-    for sample in range {
-        let factors = draw(quantities, seed, sample);
-        judge.indices(&|values, u| u.displaced(values, &factors), bench, &mut indices)?;
-        chunk.count += 1.0;
-        for ((mean, squares), &x) in chunk.mean.iter_mut().zip(&mut chunk.squares).zip(&indices) {
+impl Chunk {
+    fn of(values: usize) -> Self {
+        let zeros = || vec![0.0; values];
+        Self { count: 0.0, mean: zeros(), squares: zeros(), kept: Vec::new(), values: zeros() }
+    }
+
+    fn add<E>(
+        &mut self,
+        is_kept: bool,
+        evaluate: impl FnOnce(&mut [f64]) -> Result<(), E>,
+    ) -> Result<(), E> {
+        evaluate(&mut self.values)?;
+        self.count += 1.0;
+        for ((mean, squares), &x) in self.mean.iter_mut().zip(&mut self.squares).zip(&self.values) {
             // Welford's update: no difference of large sums.
             let before = x - *mean;
-            *mean += before / chunk.count;
+            *mean += before / self.count;
             *squares += before * (x - *mean);
         }
-        if sample < KEPT {
-            chunk.kept.extend_from_slice(&indices);
+        if is_kept {
+            self.kept.extend_from_slice(&self.values);
         }
+        Ok(())
     }
-    Ok(chunk)
 }
 
-/// One standard-normal factor per uncertain quantity.
-pub(super) fn draw(quantities: usize, seed: u64, sample: usize) -> Vec<f64> {
+/// One standard-normal factor per uncertain quantity: how many standard uncertainties the machine of a sample is off. Unit: 1.
+pub fn draw(quantities: usize, seed: u64, sample: usize) -> Vec<f64> {
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     generator.set_stream(sample as u64);
     (0..quantities).map(|_| StandardNormal.sample(&mut generator)).collect()

@@ -518,7 +518,7 @@ pub(super) fn read_decision(section: &Section<'_>) -> Option<Decision> {
 }
 
 /// `samples = 100000`, `seed = 7`; 0 samples: no run.
-fn read_sampling(section: &Section<'_>) -> Option<Sampling> {
+pub(super) fn read_sampling(section: &Section<'_>) -> Option<Sampling> {
     let default = Sampling::default();
     let samples = section.get("samples").map_or(Some(default.samples), |item| {
         let samples = item.count()?;

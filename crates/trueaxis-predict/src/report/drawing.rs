@@ -1,7 +1,10 @@
 //! A prediction for a part of any shape in text and on a page.
 
 use super::drawing_document::{extremes, word};
-use crate::predict::drawing::{CutPoint, PartPrediction, PartStudy, PartValue, effects};
+use crate::predict::drawing::{
+    CutPoint, Drawn, ManyParts, PartPrediction, PartStudy, PartValue, effects,
+};
+use crate::predict::{Sampling, Spread};
 use trueaxis_part::part::{Characteristic, Limits};
 use trueaxis_part::tolerance::Outcome;
 use trueaxis_report::{Report, Section, Standing, Table};
@@ -22,14 +25,18 @@ pub fn drawing_report<'a>(study: &'a PartStudy, prediction: &'a PartPrediction) 
             named(study, prediction, Outcome::Undecided, "within U of its limit"),
         ),
     };
-    Report::new(&study.name)
+    let report = Report::new(&study.name)
         .line(format!("{}, {}", study.job.machine.name(), study.job.machine.chain_text()))
         .line(format!("{}, {}", study.part.name, study.part.source))
         .line(format!("{}, {} steps of tools", study.job.program.file(), prediction.steps))
         .verdict(standing, title, sentence)
-        .section(characteristics(study, prediction))
-        .section(budget(study, prediction))
-        .section(features(study, prediction))
+        .section(characteristics(study, prediction));
+    let many = study.sampling.zip(prediction.drawn.as_ref());
+    let report = match many {
+        Some((sampling, drawn)) => report.section(many_machines(study, sampling, drawn)),
+        None => report,
+    };
+    report.section(budget(study, prediction)).section(features(study, prediction))
 }
 
 /// The characteristics with one outcome.
@@ -76,6 +83,38 @@ fn characteristics<'a>(study: &PartStudy, prediction: &PartPrediction) -> Sectio
          machine without errors."
     );
     Section::new("Characteristics").table(Table::new(headings).rows(rows).note(note))
+}
+
+fn many_machines<'a>(study: &PartStudy, sampling: Sampling, drawn: &ManyParts) -> Section<'a> {
+    let row = |(asked, drawn): (&Characteristic, &Drawn)| {
+        let Spread { mean_mm, u_mm, low_mm, high_mm } = drawn.spread;
+        [
+            asked.name.clone(),
+            um(mean_mm),
+            um(u_mm),
+            format!("{} … {}", um(low_mm), um(high_mm)),
+            percent(drawn.good_ratio),
+        ]
+    };
+    let rows = study.part.characteristics.iter().zip(&drawn.characteristics).map(row);
+    let note = format!(
+        "Monte Carlo: {} machines whose errors are drawn within their stated uncertainties, seed {}. All characteristics are in \
+         tolerance on {} of them.",
+        sampling.samples,
+        sampling.seed,
+        percent(drawn.good_ratio)
+    );
+    let headings = ["all in µm", "mean", "u", "95 % of machines", "in tolerance"];
+    Section::new("Many machines").table(Table::new(headings).rows(rows).note(note))
+}
+
+/// A share; what is not all is not called 100 %, what is not none not 0 %.
+fn percent(ratio: f64) -> String {
+    match 100.0 * ratio {
+        p if p > 99.9 && p < 100.0 => "> 99.9 %".to_owned(),
+        p if p > 0.0 && p < 0.1 => "< 0.1 %".to_owned(),
+        p => format!("{p:.1} %"),
+    }
 }
 
 fn budget<'a>(study: &PartStudy, prediction: &PartPrediction) -> Section<'a> {

@@ -1,6 +1,10 @@
 //! The document of a prediction for a part of any shape.
 
-use crate::predict::drawing::{CutPoint, PartPrediction, PartStudy, PartValue, effects};
+use super::prediction_document::SpreadEntry;
+use crate::predict::Sampling;
+use crate::predict::drawing::{
+    CutPoint, Drawn, ManyParts, PartPrediction, PartStudy, PartValue, effects,
+};
 use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_part::part::{Characteristic, Feature, Limits};
@@ -25,6 +29,9 @@ pub struct DrawingDocument<'a> {
     pub steps: usize,
     /// Errors of the machine file without a stated uncertainty; they add nothing to `u_mm`.
     pub errors_without_u: &'a [String],
+    /// The Monte Carlo run; absent if there was none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub monte_carlo: Option<ManyEntry>,
     /// The lines of the drawing, in the order of the part file.
     pub characteristics: Vec<CharacteristicEntry<'a>>,
     /// The features, in the order of the part file.
@@ -56,8 +63,32 @@ pub struct CharacteristicEntry<'a> {
     pub used_ratio: f64,
     /// `pass`, `fail` or `undecided`.
     pub outcome: &'static str,
+    /// From the Monte Carlo run; absent if there was none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub monte_carlo: Option<DrawnEntry>,
     /// The errors that matter most, the largest first.
     pub errors: Vec<ErrorEffectEntry>,
+}
+
+/// A Monte Carlo run for a part.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct ManyEntry {
+    /// How many machines were drawn.
+    pub samples: usize,
+    /// The random seed.
+    pub seed: u64,
+    /// The share of them on which all characteristics are in tolerance. Unit: 1.
+    pub good_ratio: f64,
+}
+
+/// A characteristic in the Monte Carlo run.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct DrawnEntry {
+    /// Its values.
+    #[serde(flatten)]
+    pub values: SpreadEntry,
+    /// The share of machines on which it is in tolerance. Unit: 1.
+    pub good_ratio: f64,
 }
 
 /// What an error does to a characteristic.
@@ -118,7 +149,17 @@ impl<'a> DrawingDocument<'a> {
     /// The document of a prediction.
     pub fn of(study: &'a PartStudy, prediction: &'a PartPrediction) -> Self {
         let part = &study.part;
-        let asked = part.characteristics.iter().zip(&prediction.values);
+        let drawn = prediction.drawn.as_ref();
+        let asked = part.characteristics.iter().zip(&prediction.values).enumerate();
+        let entry = |(i, (asked, value))| {
+            let drawn = drawn.map(|d| d.characteristics[i]);
+            CharacteristicEntry::of(&part.features, asked, (value, drawn))
+        };
+        let many = |(s, drawn): (Sampling, &ManyParts)| ManyEntry {
+            samples: s.samples,
+            seed: s.seed,
+            good_ratio: drawn.good_ratio,
+        };
         let features = part.features.iter().zip(&prediction.features);
         Self {
             schema: "trueaxis/predict/1",
@@ -127,9 +168,8 @@ impl<'a> DrawingDocument<'a> {
             outcome: word(prediction.outcome),
             steps: prediction.steps,
             errors_without_u: &prediction.errors_without_u,
-            characteristics: asked
-                .map(|(asked, value)| CharacteristicEntry::of(&part.features, asked, value))
-                .collect(),
+            monte_carlo: study.sampling.zip(drawn).map(many),
+            characteristics: asked.map(entry).collect(),
             features: features
                 .map(|(f, cut)| FeatureEntry::of(f, &cut.points, &prediction.programs))
                 .collect(),
@@ -138,7 +178,11 @@ impl<'a> DrawingDocument<'a> {
 }
 
 impl<'a> CharacteristicEntry<'a> {
-    fn of(features: &'a [Feature], asked: &'a Characteristic, value: &PartValue) -> Self {
+    fn of(
+        features: &'a [Feature],
+        asked: &'a Characteristic,
+        (value, drawn): (&PartValue, Option<Drawn>),
+    ) -> Self {
         let (low_mm, high_mm) = match asked.limits {
             Limits::Zone { tolerance_mm } => (None, tolerance_mm),
             Limits::Size { low_mm, high_mm } => (Some(low_mm), high_mm),
@@ -159,6 +203,8 @@ impl<'a> CharacteristicEntry<'a> {
             high_mm,
             used_ratio: value.used_ratio,
             outcome: word(value.outcome),
+            monte_carlo: drawn
+                .map(|d| DrawnEntry { values: d.spread.into(), good_ratio: d.good_ratio }),
             errors: effects(value, MOST_ERRORS).map(effect).collect(),
         }
     }

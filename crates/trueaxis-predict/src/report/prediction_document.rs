@@ -352,12 +352,14 @@ fn command(axes: &[Axis], command: &Command) -> Keyed<f64> {
 
 impl From<&Index> for IndexEntry {
     fn from(index: &Index) -> Self {
-        let spread = |s: Spread| SpreadEntry {
-            mean_mm: s.mean_mm,
-            u_mm: s.u_mm,
-            interval_95_mm: [s.low_mm, s.high_mm],
-        };
-        Self { value: index.value_mm, u_mm: index.u_mm, monte_carlo: index.spread.map(spread) }
+        let spread = index.spread.map(SpreadEntry::from);
+        Self { value: index.value_mm, u_mm: index.u_mm, monte_carlo: spread }
+    }
+}
+
+impl From<Spread> for SpreadEntry {
+    fn from(s: Spread) -> Self {
+        Self { mean_mm: s.mean_mm, u_mm: s.u_mm, interval_95_mm: [s.low_mm, s.high_mm] }
     }
 }
 

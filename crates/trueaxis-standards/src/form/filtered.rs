@@ -118,7 +118,9 @@ fn round(
         passed += 2.0 * transmission(harmonic / undulations).powi(2);
         harmonic += 1.0;
     }
-    let fitted = fit(Element::Circle, &points_mm, &Known { normal: Some(normal) }).ok()?;
+    let fitted =
+        fit(Element::Circle, &points_mm, &Known { normal: Some(normal), ..Known::default() })
+            .ok()?;
     Some(Filtered { fitted, points_mm, normal, gain: (passed / n).sqrt().min(1.0) })
 }
 
@@ -156,7 +158,8 @@ fn straight(
         shape.point_mm + shape.direction * t + side * v
     };
     let points_mm: Vec<Vec3> = values.into_iter().enumerate().map(point).collect();
-    let fitted = fit(Element::Line, &points_mm, &Known { normal: Some(normal) }).ok()?;
+    let fitted =
+        fit(Element::Line, &points_mm, &Known { normal: Some(normal), ..Known::default() }).ok()?;
     // ∫ s² dx of the weights is 1/(√2 α λc), α = 0.4697.
     let gain = (profile.step / (std::f64::consts::SQRT_2 * 0.4697 * cut_off_mm)).sqrt().min(1.0);
     Some(Filtered { fitted, points_mm, normal, gain })

@@ -12,7 +12,7 @@ use trueaxis_predict::predict::drawing::{
 use trueaxis_predict::predict::holes::{
     HolePrediction, HoleSet, HoleStudy, is_hole_study, predict_holes, read_hole_study,
 };
-use trueaxis_predict::predict::{Error, Prediction, Study, predict, read_study};
+use trueaxis_predict::predict::{Error, Prediction, Sampling, Study, predict, read_study};
 use trueaxis_report::{Report, document};
 
 /// A test piece, holes or a part before they are cut.
@@ -54,11 +54,11 @@ impl Predict {
     }
 
     /// The sampling of the study, changed as asked.
-    fn choose_sampling(&self, study: &mut Study, samples: Option<usize>) {
-        let mut sampling = study.sampling.unwrap_or_default();
-        sampling.samples = samples.unwrap_or(study.sampling.map_or(0, |s| s.samples));
+    fn sampling(&self, stated: Option<Sampling>, samples: Option<usize>) -> Option<Sampling> {
+        let mut sampling = stated.unwrap_or_default();
+        sampling.samples = samples.unwrap_or(stated.map_or(0, |s| s.samples));
         sampling.seed = self.seed.unwrap_or(sampling.seed);
-        study.sampling = Some(sampling).filter(|s| s.samples > 0);
+        Some(sampling).filter(|s| s.samples > 0)
     }
 
     fn samples(&self, problems: &mut Diagnostics) -> Option<usize> {
@@ -85,18 +85,13 @@ impl Question for Predict {
             return study.map(Box::new).map(PredictInput::Holes);
         }
         if is_part_study(files, &self.study) {
-            if self.samples.is_some() || self.seed.is_some() {
-                let message =
-                    "a part has no Monte Carlo run: its u comes from linear propagation".to_owned();
-                let place = Place::whole("--samples, --seed");
-                problems.error("contradiction", place, message, "leave them out");
-            }
-            let study = problems.keep(read_part_study(files, &self.study));
-            return study.map(Box::new).map(PredictInput::Drawing);
+            let mut study = Box::new(problems.keep(read_part_study(files, &self.study))?);
+            study.sampling = self.sampling(study.sampling, samples);
+            return Some(PredictInput::Drawing(study));
         }
         let study = problems.keep(read_study(files, &self.study));
         let mut study = Box::new(study?);
-        self.choose_sampling(&mut study, samples);
+        study.sampling = self.sampling(study.sampling, samples);
         Some(PredictInput::Part(study))
     }
 
@@ -118,7 +113,7 @@ impl Question for Predict {
                 }
             }
             PredictInput::Drawing(study) => {
-                let prediction = predict_part(&study, problems)?;
+                let prediction = predict_part(&study, progress, problems)?;
                 Some(Predicted::Drawing(study, Box::new(prediction)))
             }
             PredictInput::Holes(study) => match predict_holes(&study) {

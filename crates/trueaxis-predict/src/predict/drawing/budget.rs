@@ -1,5 +1,6 @@
 //! Values of the characteristics, their uncertainty, and what each error does to them.
 
+use super::many::{ManyParts, many};
 use super::path::CutPath;
 use super::{PartStudy, PartValue, outcome};
 use rayon::prelude::*;
@@ -116,7 +117,8 @@ pub(super) fn values(
     path: &CutPath<'_>,
     (nails, cuts): (&[Nail], &[Cut]),
     (deviations, by_program): (&[f64], &[f64]),
-) -> Result<Vec<PartValue>, String> {
+    progress: &(dyn Fn(f64) + Sync),
+) -> Result<(Vec<PartValue>, Option<ManyParts>), String> {
     let machines = path.machines(&study.mounted);
     let place = |(nail, cut)| place(path, &machines, nail, cut);
     let places = nails.iter().zip(cuts).map(place).collect::<Result<_, String>>()?;
@@ -145,6 +147,8 @@ pub(super) fn values(
             *sum += (0.5 * (a - b)).powi(2);
         }
     }
+    let drawn =
+        study.sampling.map(|s| many(part, (deviations, &shifts), s, progress)).transpose()?;
     let stated = study.mounted.stated_errors();
     let without: Vec<Vec<f64>> = stated
         .par_iter()
@@ -170,7 +174,7 @@ pub(super) fn values(
             errors,
         }
     };
-    Ok(part.characteristics.iter().enumerate().map(value).collect())
+    Ok((part.characteristics.iter().enumerate().map(value).collect(), drawn))
 }
 
 fn place<'a>(

@@ -49,6 +49,26 @@ impl<'j> CutPath<'j> {
         Self { job, zero_mm: *zero_mm, tools: BTreeMap::new(), begins: BTreeMap::new(), last: None }
     }
 
+    /// Moves the actual tools to where a machine of other errors has them: deviations of tip and axis by machine with its tool, command
+    /// and approach.
+    pub(super) fn displace(
+        &mut self,
+        mounted: &Machine,
+        deviation: &dyn Fn(&Machine, &Command, &Approach) -> Result<[Vec3; 2], String>,
+    ) -> Result<(), String> {
+        let machines = self.machines(mounted);
+        for (stops, machine) in self.tools.values_mut().zip(&machines) {
+            for stop in stops {
+                let [tip, axis] = deviation(machine, &stop.command, &stop.approach)?;
+                stop.actual = ToolPose {
+                    tip_mm: stop.nominal.tip_mm + tip - self.zero_mm,
+                    axis: (stop.nominal.axis + axis).normalize(),
+                };
+            }
+        }
+        Ok(())
+    }
+
     /// How many steps there are.
     pub fn steps(&self) -> usize {
         let stops: usize = self.tools.values().map(Vec::len).sum();

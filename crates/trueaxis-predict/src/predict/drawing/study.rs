@@ -2,7 +2,10 @@
 
 use super::super::Setting;
 use super::super::cutting::setting_command;
-use super::super::study::{Decision, check_uncertainties, read_decision, read_setting};
+use super::super::monte_carlo::Sampling;
+use super::super::study::{
+    Decision, check_uncertainties, read_decision, read_sampling, read_setting,
+};
 use super::super::temperatures::StudyTemperatures;
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
@@ -34,6 +37,8 @@ pub struct PartStudy {
     pub setting: Option<Command>,
     /// The rule of the verdict.
     pub decision: Decision,
+    /// How many machines are drawn; none: u is found by linear propagation alone.
+    pub sampling: Option<Sampling>,
 }
 
 impl std::fmt::Debug for PartStudy {
@@ -80,6 +85,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<PartStudy> {
     let program = root.require("program", hint).and_then(|i| i.text());
     let setup = root.text("setup").map(|name| folder.join(name));
     let decision = root.section("decision", read_decision).unwrap_or(Some(Decision::Simple));
+    let sampling = root.section("monte_carlo", read_sampling).map_or(Some(None), |s| s.map(Some));
     let setting = machine.as_ref().map(|machine| {
         check_uncertainties(root, decision, machine);
         root.section("setting", |s| read_setting(s, machine, &[])).flatten().unwrap_or_default()
@@ -128,6 +134,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<PartStudy> {
         setting,
         job,
         decision: decision?,
+        sampling: sampling?.filter(|s| s.samples > 0),
     })
 }
 
