@@ -9639,6 +9639,10 @@ export interface PredictPart {
    */
   errors_without_u: string[];
   /**
+   * The Monte Carlo run; absent if there was none.
+   */
+  monte_carlo?: ManyEntry | null;
+  /**
    * The lines of the drawing, in the order of the part file.
    */
   characteristics: CharacteristicEntry[];
@@ -9679,6 +9683,23 @@ export interface PredictPart {
      */
     hint: string;
   }[];
+}
+/**
+ * A Monte Carlo run for a part.
+ */
+export interface ManyEntry {
+  /**
+   * How many machines were drawn.
+   */
+  samples: number;
+  /**
+   * The random seed.
+   */
+  seed: number;
+  /**
+   * The share of them on which all characteristics are in tolerance. Unit: 1.
+   */
+  good_ratio: number;
 }
 /**
  * One line of the drawing.
@@ -9729,9 +9750,37 @@ export interface CharacteristicEntry {
    */
   outcome: string;
   /**
+   * From the Monte Carlo run; absent if there was none.
+   */
+  monte_carlo?: DrawnEntry | null;
+  /**
    * The errors that matter most, the largest first.
    */
   errors: ErrorEffectEntry[];
+}
+/**
+ * A characteristic in the Monte Carlo run.
+ */
+export interface DrawnEntry {
+  /**
+   * The mean, mm.
+   */
+  mean_mm: number;
+  /**
+   * The standard uncertainty, mm.
+   */
+  u_mm: number;
+  /**
+   * Lower and upper end of the 95 % interval, mm.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  interval_95_mm: [number, number];
+  /**
+   * The share of machines on which it is in tolerance. Unit: 1.
+   */
+  good_ratio: number;
 }
 /**
  * What an error does to a characteristic.
@@ -9762,6 +9811,10 @@ export interface FeatureEntry {
    * How many points it has.
    */
   points: number;
+  /**
+   * How far neighbouring points are apart, mm.
+   */
+  spacing_mm: number;
   /**
    * The point with the most material left.
    */
@@ -9810,6 +9863,23 @@ export interface ServeWhatIfPointEntry {
    * When, from the start of the program, s.
    */
   time_s: number;
+  /**
+   * The errors that displace it most, the largest first.
+   */
+  errors: PointEffectEntry[];
+}
+/**
+ * What an error does to a point.
+ */
+export interface PointEffectEntry {
+  /**
+   * Its ISO 230-1 name.
+   */
+  error: string;
+  /**
+   * How much of the deviation of the point it makes, mm.
+   */
+  part_mm: number;
 }
 /**
  * A test piece before it is cut: `trueaxis/predict/1`.
@@ -11543,13 +11613,23 @@ export interface HolesDocument {
 }
 /**
  * The prediction of a part by its drawing. Arrays, point after point of all features: `places_mm` (f32: three nominal
- * coordinates each), `deviation_um` (f32).
+ * coordinates each), `normals` (f32: three each, out of the material), `deviation_um`, `by_program_um` (f32: on a machine without
+ * errors), `tool`, `program`, `line` (u32: the block that cut it), `time_s` (f32), and of the four errors that displace it most
+ * `error` (u32: the number of its name in `error_names`; where there are fewer, of none) and `part_um` (f32).
  */
 export interface DrawingEntry {
   /**
    * The document of `trueaxis predict`.
    */
   document: DrawingDocument;
+  /**
+   * The files of the program, by their number in `program`.
+   */
+  programs: string[];
+  /**
+   * The names of the errors, by their number in `error`.
+   */
+  error_names: string[];
   /**
    * The problems of the study.
    */
@@ -11583,6 +11663,10 @@ export interface DrawingDocument {
    * Errors of the machine file without a stated uncertainty; they add nothing to `u_mm`.
    */
   errors_without_u: string[];
+  /**
+   * The Monte Carlo run; absent if there was none.
+   */
+  monte_carlo?: ManyEntry | null;
   /**
    * The lines of the drawing, in the order of the part file.
    */

@@ -299,6 +299,30 @@ test("a part by its drawing: characteristics, errors and surfaces", async () => 
     features,
     expected.features.map((f) => f.name),
   );
+  // The worst point of the surface that was chosen last, with its block and its causes.
+  const last = expected.characteristics.at(-1);
+  const feature = expected.features.find((f) => f.name === last.feature);
+  const worst = [feature.most, feature.least].reduce((a, b) =>
+    Math.abs(a.deviation_mm) >= Math.abs(b.deviation_mm) ? a : b,
+  );
+  assert.equal(
+    await page.textContent(`${shown} [data-test=point-deviation]`),
+    `${feature.name}: ${two(worst.deviation_mm)} µm`,
+  );
+  const block = await page.textContent(`${shown} [data-test=block]`);
+  assert.match(block, new RegExp(`^T${worst.tool}, .*housing\\.nc line ${worst.line}, `));
+  const causes = worst.errors.map((e) => `${e.error} ${two(e.part_mm)}`).join(", ");
+  assert.equal(await page.textContent(`${shown} [data-test=causes]`), `Errors, in µm: ${causes}`);
+  // A point that is pressed is another one.
+  const scene = await page.locator(`${shown} .predict-scene canvas`).boundingBox();
+  const before = await page.textContent(`${shown} [data-test=point]`);
+  const pressed = [0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65].flatMap((x) => [0.45, 0.5, 0.55].map((y) => [x, y]));
+  for (const [x, y] of pressed) await page.mouse.click(scene.x + x * scene.width, scene.y + y * scene.height);
+  assert.notEqual(await page.textContent(`${shown} [data-test=point]`), before);
+  assert.equal(
+    await page.textContent(`${shown} [data-test=many]`),
+    `good on ${(100 * expected.monte_carlo.good_ratio).toFixed(1)} % of machines`,
+  );
   await picture(page, "predict-drawing");
   assert.deepEqual(complaints, []);
 });

@@ -2,6 +2,7 @@
 
 mod drawing;
 mod drawing_document;
+mod drawing_pictures;
 mod holes;
 mod holes_document;
 mod holes_pictures;

@@ -439,14 +439,19 @@ impl Unrolled {
 }
 
 /// Blue over white to red for −1 … 1.
-fn heat(t: f64) -> RGBColor {
+pub fn heat(t: f64) -> RGBColor {
     let t = t.clamp(-1.0, 1.0);
     let end = if t < 0.0 { (33.0, 102.0, 172.0) } else { (178.0, 24.0, 43.0) };
     let mix = |c: f64| (247.0 + (c - 247.0) * t.abs()) as u8;
     RGBColor(mix(end.0), mix(end.1), mix(end.2))
 }
 
-fn colour_bar(area: &Area<'_>, (width, height): (u32, u32), most: f64) -> Result<(), DrawingError> {
+/// The scale of [`heat`] at the lower edge of a picture of this size, up to the largest deviation in mm.
+pub fn colour_bar(
+    area: &Area<'_>,
+    (width, height): (u32, u32),
+    most: f64,
+) -> Result<(), DrawingError> {
     let (left, right) = (px(width as i32 / 4), px(width as i32 * 3 / 4));
     let y = px(height as i32 - 40);
     for x in (left..right).step_by(SHARP as usize) {

@@ -160,7 +160,7 @@ fn law_many_machines_by_hand() {
     }
 }
 
-/// Machines drawn by the run are cut anew, the same ones: mean and spread agree.
+/// Machines drawn by the run are cut again, the same ones: mean and spread agree.
 fn as_cut_anew(study: &mut PartStudy, samples: usize, within_mm: f64) {
     use trueaxis::predict::{Sampling, draw};
     study.sampling = Some(Sampling { samples, seed: 5 });
@@ -218,6 +218,12 @@ fn law_the_budget_is_what_another_machine_cuts() {
         let rest: Vec<&str> = errors.iter().copied().filter(|e| *e != left_out).collect();
         let after = predicted(&[("m.toml", &mill(&rest.join("\n")))]);
         let name = left_out.split(' ').next().expect("a name");
+        // A point names all four; together they are its deviation.
+        for point in before.features.iter().flat_map(|f| &f.points) {
+            let sum: f64 = point.errors.iter().map(|e| e.part_mm).sum();
+            assert!((sum - (point.deviation_mm - point.by_program_mm)).abs() < 5e-5, "{point:?}");
+            assert!(point.errors.is_sorted_by(|a, b| a.part_mm.abs() >= b.part_mm.abs()));
+        }
         for (value, direct) in before.values.iter().zip(values(&after)) {
             let said = value.errors.iter().find(|e| e.error.to_string() == name).expect("named");
             assert!(

@@ -4,15 +4,19 @@ import {
   AxesHelper,
   Box3,
   type Group,
+  type InstancedMesh,
   type Mesh,
   type MeshBasicMaterial,
   type Object3D,
+  Raycaster,
   Scene,
+  Vector2,
   Vector3,
   WebGLRenderer,
 } from "three";
 import type { MachineDescription, Model, ToolShape } from "../api.ts";
 import { h } from "../dom.ts";
+import type { ColourBarSpec } from "../figure/colourbar.ts";
 import { factor } from "../format.ts";
 import { cssColour, onTheme } from "../theme.ts";
 import { axisArrow } from "./arrows.ts";
@@ -299,6 +303,21 @@ export class MachineView {
   setSurface(data: SurfaceData | null, bar?: BarWords): void {
     this.layers.setSurface(data, bar);
     this.requestRender();
+  }
+
+  /** The colour bar of something of the caller's own. */
+  showScale(bar: ColourBarSpec): void {
+    this.layers.showBar(bar);
+  }
+
+  /** Which instance of a mesh is seen at a place of the page; null: none. */
+  instanceAt(mesh: InstancedMesh, x: number, y: number): number | null {
+    const box = this.element.getBoundingClientRect();
+    const at = new Vector2((2 * (x - box.left)) / box.width - 1, 1 - (2 * (y - box.top)) / box.height);
+    const ray = new Raycaster();
+    this.scene.updateMatrixWorld(true);
+    ray.setFromCamera(at, this.camera.camera);
+    return ray.intersectObject(mesh)[0]?.instanceId ?? null;
   }
 
   /** Something of the caller's own in the workpiece frame (poses, arrows of residuals). */

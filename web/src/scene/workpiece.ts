@@ -59,7 +59,7 @@ export class WorkpieceLayers {
     this.path?.setGhostVisible(visible);
   }
 
-  private showBar(spec: ColourBarSpec | null): void {
+  showBar(spec: ColourBarSpec | null): void {
     this.legend.replaceChildren(...(spec ? [colourBar(spec)] : []));
   }
 }

@@ -144,7 +144,7 @@ class PredictTab implements TabHandle {
   private showDrawing(study: string, frame: Frame<DrawingHeader>): void {
     this.base = null;
     this.drawing ??= new Drawing(this.drawing_page, this.app);
-    this.drawing.show(study, frame.header);
+    this.drawing.show(study, frame);
   }
 
   // ---- a test piece ----

@@ -15,7 +15,7 @@ mod path;
 mod programmed;
 mod study;
 
-pub use budget::{ErrorEffect, effects};
+pub use budget::{ErrorEffect, PointEffect, effects};
 pub use many::{Drawn, ManyParts, cut_with};
 pub use path::{CutPath, Origin};
 pub use study::{PartStudy, is_part_study, read_part_study};
@@ -59,6 +59,8 @@ pub struct CutPoint {
     pub by_program_mm: f64,
     /// The block that cut it.
     pub origin: Origin,
+    /// The errors that displace it most, the largest first.
+    pub errors: Vec<PointEffect>,
 }
 
 /// A feature as it was cut.
@@ -134,7 +136,7 @@ pub fn predict_part(
     let deviations: Vec<f64> = found.iter().map(|c| c.deviation_mm).collect();
     let made = (&nails[..], &found[..]);
     let values = budget::values((study, &part), &path, made, (&deviations, &by_program), progress);
-    let (values, drawn) = match values {
+    let budget::Judged { values, drawn, effects } = match values {
         Ok(values) => values,
         Err(why) => {
             problems.error(
@@ -146,14 +148,15 @@ pub fn predict_part(
             return None;
         }
     };
-    let mut points =
-        nails.iter().zip(&found).zip(&by_program).map(|((nail, cut), by_program)| CutPoint {
-            nominal_mm: nail.foot_mm,
-            normal: nail.normal,
-            deviation_mm: cut.deviation_mm,
-            by_program_mm: *by_program,
-            origin: path.origin(cut),
-        });
+    let all = nails.iter().zip(&found).zip(&by_program).zip(effects);
+    let mut points = all.map(|(((nail, cut), by_program), errors)| CutPoint {
+        nominal_mm: nail.foot_mm,
+        normal: nail.normal,
+        deviation_mm: cut.deviation_mm,
+        by_program_mm: *by_program,
+        origin: path.origin(cut),
+        errors,
+    });
     let features = part.features.iter();
     let features = features
         .map(|f| CutFeature { points: points.by_ref().take(f.points.len()).collect() })

@@ -68,7 +68,7 @@ pub fn monte_carlo(
     let indices = |factors: &[f64], bench: &mut Bench, indices: &mut [f64]| {
         judge.indices(&|values, u| u.displaced(values, factors), bench, indices)
     };
-    spreads(sampling, counts, &indices, progress)
+    spreads(sampling, counts, indices, progress)
 }
 
 /// The spread of each of many values of samples, by the number of factors of a sample and of its values. What a sample needs to
@@ -76,7 +76,7 @@ pub fn monte_carlo(
 pub(super) fn spreads<W: Default, E: Send>(
     sampling: Sampling,
     [factors, values]: [usize; 2],
-    evaluate: &(dyn Fn(&[f64], &mut W, &mut [f64]) -> Result<(), E> + Sync),
+    evaluate: impl Fn(&[f64], &mut W, &mut [f64]) -> Result<(), E> + Sync,
     progress: &(dyn Fn(usize) + Sync),
 ) -> Result<Vec<Spread>, E> {
     let done = AtomicUsize::new(0);

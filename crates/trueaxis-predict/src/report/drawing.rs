@@ -1,6 +1,7 @@
 //! A prediction for a part of any shape in text and on a page.
 
 use super::drawing_document::{extremes, word};
+use super::drawing_pictures::deviation_map;
 use crate::predict::drawing::{
     CutPoint, Drawn, ManyParts, PartPrediction, PartStudy, PartValue, effects,
 };
@@ -133,7 +134,7 @@ fn budget<'a>(study: &PartStudy, prediction: &PartPrediction) -> Section<'a> {
         .table(table.note("The errors whose absence changes a value most, to first order."))
 }
 
-fn features<'a>(study: &PartStudy, prediction: &PartPrediction) -> Section<'a> {
+fn features<'a>(study: &PartStudy, prediction: &'a PartPrediction) -> Section<'a> {
     let place = |p: &CutPoint| {
         // Lines of the main program need no name of a file.
         let subprogram = match p.origin.program {
@@ -158,5 +159,5 @@ fn features<'a>(study: &PartStudy, prediction: &PartPrediction) -> Section<'a> {
         table = table.row([feature.name.clone(), count, place(most), place(least)]);
     }
     let note = "Deviations along the normals, with the block that cut the point and its time from the start.";
-    Section::new("Surfaces").table(table.note(note))
+    Section::new("Surfaces").figure(deviation_map(prediction)).table(table.note(note))
 }

@@ -3,7 +3,7 @@
 use super::prediction_document::SpreadEntry;
 use crate::predict::Sampling;
 use crate::predict::drawing::{
-    CutPoint, Drawn, ManyParts, PartPrediction, PartStudy, PartValue, effects,
+    CutPoint, Drawn, ManyParts, PartPrediction, PartStudy, PartValue, PointEffect, effects,
 };
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -109,6 +109,8 @@ pub struct FeatureEntry<'a> {
     pub shape: &'static str,
     /// How many points it has.
     pub points: usize,
+    /// How far neighbouring points are apart, mm.
+    pub spacing_mm: f64,
     /// The point with the most material left.
     pub most: PointEntry,
     /// The point with the most material missing, or the least left.
@@ -134,6 +136,17 @@ pub struct PointEntry {
     pub line: u32,
     /// When, from the start of the program, s.
     pub time_s: f64,
+    /// The errors that displace it most, the largest first.
+    pub errors: Vec<PointEffectEntry>,
+}
+
+/// What an error does to a point.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct PointEffectEntry {
+    /// Its ISO 230-1 name.
+    pub error: String,
+    /// How much of the deviation of the point it makes, mm.
+    pub part_mm: f64,
 }
 
 /// In one word.
@@ -218,6 +231,20 @@ pub(super) fn extremes(points: &[CutPoint]) -> [&CutPoint; 2] {
     [most, least]
 }
 
+/// The median of the distances of some points from their nearest neighbours; of one point 1 mm.
+pub(super) fn spacing_mm(points: &[CutPoint]) -> f64 {
+    const ASKED: usize = 50;
+    let every = points.len().div_ceil(ASKED).max(1);
+    let nearest = |i: usize| {
+        let others = points.iter().enumerate().filter(|(k, _)| *k != i);
+        let off = others.map(|(_, p)| (p.nominal_mm - points[i].nominal_mm).norm());
+        off.filter(|d| *d > 1e-6).fold(f64::INFINITY, f64::min)
+    };
+    let mut all: Vec<f64> = (0..points.len()).step_by(every).map(nearest).collect();
+    all.sort_by(f64::total_cmp);
+    all.get(all.len() / 2).copied().filter(|d| d.is_finite()).unwrap_or(1.0)
+}
+
 impl<'a> FeatureEntry<'a> {
     fn of(feature: &'a Feature, points: &[CutPoint], programs: &[String]) -> Self {
         let [most, least] = extremes(points);
@@ -226,10 +253,17 @@ impl<'a> FeatureEntry<'a> {
             name: &feature.name,
             shape: feature.geometry.name(),
             points: points.len(),
+            spacing_mm: spacing_mm(points),
             most: PointEntry::of(most, programs),
             least: PointEntry::of(least, programs),
             mean_mm: sum / points.len() as f64,
         }
+    }
+}
+
+impl From<&PointEffect> for PointEffectEntry {
+    fn from(effect: &PointEffect) -> Self {
+        Self { error: effect.error.to_string(), part_mm: effect.part_mm }
     }
 }
 
@@ -244,6 +278,7 @@ impl PointEntry {
             tool: point.origin.tool,
             line: point.origin.line,
             time_s: point.origin.time_s,
+            errors: point.errors.iter().map(PointEffectEntry::from).collect(),
         }
     }
 }

@@ -10,12 +10,13 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
 use trueaxis::files::disk;
+use trueaxis::geometry::Vec3;
 use trueaxis::input::Diagnostics;
 use trueaxis::machine::axis::AxisKind;
 use trueaxis::machine::errors::ErrorName;
 use trueaxis::machine::heat::Conditions;
 use trueaxis::part::fit::circle::Zone;
-use trueaxis::predict::drawing::PartPrediction;
+use trueaxis::predict::drawing::{CutPoint, PartPrediction};
 use trueaxis::predict::holes::{HolePrediction, HoleStudy};
 use trueaxis::predict::{Error, Prediction, SectionResult, Study, WhatIf, preview, read_study};
 use trueaxis::questions::{Predict, Predicted};
@@ -131,11 +132,17 @@ pub(super) struct HolesEntry<'a> {
 }
 
 /// The prediction of a part by its drawing. Arrays, point after point of all features: `places_mm` (f32: three nominal
-/// coordinates each), `deviation_um` (f32).
+/// coordinates each), `normals` (f32: three each, out of the material), `deviation_um`, `by_program_um` (f32: on a machine without
+/// errors), `tool`, `program`, `line` (u32: the block that cut it), `time_s` (f32), and of the four errors that displace it most
+/// `error` (u32: the number of its name in `error_names`; where there are fewer, of none) and `part_um` (f32).
 #[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct DrawingEntry<'a> {
     /// The document of `trueaxis predict`.
     document: DrawingDocument<'a>,
+    /// The files of the program, by their number in `program`.
+    programs: &'a [String],
+    /// The names of the errors, by their number in `error`.
+    error_names: Vec<String>,
     /// The problems of the study.
     diagnostics: Vec<DiagnosticEntry<'a>>,
 }
@@ -161,11 +168,15 @@ impl Request for PredictRequest {
                 Reply::frame(&answer, hole_arrays(study, prediction))
             }
             Predicted::Drawing(study, prediction) => {
+                let names = study.mounted.stated_errors().into_iter().map(|(_, name)| name);
+                let names: Vec<ErrorName> = names.collect();
                 let answer = PredictAnswer::Drawing(Box::new(DrawingEntry {
                     document: DrawingDocument::of(study, prediction),
+                    programs: &prediction.programs,
+                    error_names: names.iter().map(ErrorName::to_string).collect(),
                     diagnostics: entries(&problems),
                 }));
-                Reply::frame(&answer, point_arrays(prediction))
+                Reply::frame(&answer, point_arrays(prediction, &names))
             }
         })
     }
@@ -283,13 +294,34 @@ fn section_arrays(prediction: &Prediction) -> Arrays {
     ]
 }
 
-fn point_arrays(prediction: &PartPrediction) -> Arrays {
+fn point_arrays(prediction: &PartPrediction, names: &[ErrorName]) -> Arrays {
+    const EFFECTS: usize = 4;
     let points = || prediction.features.iter().flat_map(|f| &f.points);
-    let places = points().flat_map(|p| [p.nominal_mm.x, p.nominal_mm.y, p.nominal_mm.z]);
-    let deviation_um = points().map(|p| (p.deviation_mm * 1e3) as f32);
+    let three = |of: fn(&CutPoint) -> Vec3| {
+        let all = points().flat_map(move |p| <[f64; 3]>::from(of(p)));
+        Array::F32(all.map(|c| c as f32).collect())
+    };
+    let float = |of: fn(&CutPoint) -> f64| Array::F32(points().map(|p| of(p) as f32).collect());
+    let count = |of: fn(&CutPoint) -> u32| Array::U32(points().map(of).collect());
+    let number = |name: &ErrorName| names.iter().position(|n| n == name).unwrap_or(names.len());
+    let effects = points().flat_map(|p| (0..EFFECTS).map(|k| p.errors.get(k)));
+    let (error, part_um): (Vec<u32>, Vec<f32>) = effects
+        .map(|effect| match effect {
+            Some(e) => (number(&e.error) as u32, (e.part_mm * 1e3) as f32),
+            None => (names.len() as u32, 0.0),
+        })
+        .unzip();
     vec![
-        ("places_mm", Array::F32(places.map(|c| c as f32).collect())),
-        ("deviation_um", Array::F32(deviation_um.collect())),
+        ("places_mm", three(|p| p.nominal_mm)),
+        ("normals", three(|p| p.normal)),
+        ("deviation_um", float(|p| 1e3 * p.deviation_mm)),
+        ("by_program_um", float(|p| 1e3 * p.by_program_mm)),
+        ("tool", count(|p| p.origin.tool)),
+        ("program", count(|p| p.origin.program)),
+        ("line", count(|p| p.origin.line)),
+        ("time_s", float(|p| p.origin.time_s)),
+        ("error", Array::U32(error)),
+        ("part_um", Array::F32(part_um)),
     ]
 }
 

@@ -3,6 +3,8 @@
 import { diagnosticList, split, type App } from "../../app.ts";
 import { fill, h } from "../../dom.ts";
 import { number } from "../../format.ts";
+import type { Frame } from "../../frame.ts";
+import { DeviationMap } from "./deviationmap.ts";
 import { studyChoice } from "./summary.ts";
 import type { CharacteristicValue, CutPoint, DrawingHeader, Verdict } from "./types.ts";
 
@@ -21,14 +23,18 @@ export class Drawing {
   private readonly surfaces = h("div", { class: "panel" });
   private chosen = 0;
 
+  private readonly map: DeviationMap;
+
   constructor(host: HTMLElement, app: App) {
     this.app = app;
-    const { left, right } = split(host, "drawing", 0.6);
-    left.append(this.head, this.verdict, this.values);
-    right.append(this.budget, this.surfaces);
+    const { left, right } = split(host, "drawing", 0.5);
+    this.map = new DeviationMap(left);
+    right.classList.add("predict-drawing");
+    right.append(this.head, this.verdict, this.values, this.budget, this.surfaces);
   }
 
-  show(path: string, { document, diagnostics }: DrawingHeader): void {
+  show(path: string, frame: Frame<DrawingHeader>): void {
+    const { document, diagnostics } = frame.header;
     const nearest = document.characteristics.reduce((w, c) => (w.used_ratio >= c.used_ratio ? w : c));
     this.chosen = document.characteristics.indexOf(nearest);
     fill(
@@ -42,6 +48,13 @@ export class Drawing {
       this.verdict,
       h("strong", { dataTest: "verdict" }, document.outcome.toUpperCase()),
       h("span", {}, SENTENCES[document.outcome as Verdict]),
+      document.monte_carlo
+        ? h(
+            "span",
+            { class: "muted", dataTest: "many", title: `${document.monte_carlo.samples} machines drawn within u` },
+            `good on ${share(document.monte_carlo.good_ratio)} of machines`,
+          )
+        : null,
       h(
         "span",
         { class: "verdict-worst", dataTest: "worst" },
@@ -51,6 +64,7 @@ export class Drawing {
     this.showValues(document);
     this.showBudget(nearest);
     this.showSurfaces(document);
+    this.map.show(frame);
   }
 
   private showValues(document: DrawingHeader["document"]): void {
@@ -64,6 +78,7 @@ export class Drawing {
         h("td", { class: "number muted" }, number(1e3 * value.nominal_mm, 2)),
         h("td", { class: "number" }, allowed(value)),
         h("td", { class: `used ${value.outcome}` }, `${number(100 * value.used_ratio, 0)} %`),
+        value.monte_carlo ? h("td", { class: "number" }, share(value.monte_carlo.good_ratio)) : null,
       );
     fill(
       this.values,
@@ -83,6 +98,13 @@ export class Drawing {
             h("th", { class: "number", title: "what the program leaves on a machine without errors" }, "program alone"),
             h("th", { class: "number" }, "allowed"),
             h("th", {}, "used"),
+            document.monte_carlo
+              ? h(
+                  "th",
+                  { class: "number", title: "the share of machines drawn within u on which it is in tolerance" },
+                  "good on",
+                )
+              : null,
           ),
         ),
         h("tbody", {}, document.characteristics.map(row)),
@@ -94,6 +116,7 @@ export class Drawing {
     this.chosen = i;
     this.showValues(document);
     this.showBudget(value);
+    this.map.mark(document.features.findIndex((f) => f.name === value.feature));
   }
 
   private showBudget(value: CharacteristicValue): void {
@@ -175,6 +198,10 @@ export class Drawing {
     );
   }
 }
+
+/** What is not all is not called 100 %. */
+const share = (ratio: number): string =>
+  ratio > 0.999 && ratio < 1 ? "> 99.9 %" : ratio > 0 && ratio < 0.001 ? "< 0.1 %" : `${number(100 * ratio, 1)} %`;
 
 /** What u leaves out. */
 const withoutU = ({ errors_without_u }: DrawingHeader["document"]): string =>

@@ -20,6 +20,26 @@ pub struct ErrorEffect {
     pub without_mm: f64,
 }
 
+/// How many errors a point remembers.
+const MOST_EFFECTS: usize = 4;
+
+/// What one error does to a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointEffect {
+    /// The error.
+    pub error: ErrorName,
+    /// How much of the deviation of the point it makes, to first order, mm.
+    pub part_mm: f64,
+}
+
+/// What the budget says about a part.
+pub(super) struct Judged {
+    pub values: Vec<PartValue>,
+    pub drawn: Option<ManyParts>,
+    /// For each point the errors that displace it most, the largest first.
+    pub effects: Vec<Vec<PointEffect>>,
+}
+
 /// A cut on its machine: that with the tool which made it.
 struct Place<'a> {
     machine: &'a Machine,
@@ -118,7 +138,7 @@ pub(super) fn values(
     (nails, cuts): (&[Nail], &[Cut]),
     (deviations, by_program): (&[f64], &[f64]),
     progress: &(dyn Fn(f64) + Sync),
-) -> Result<(Vec<PartValue>, Option<ManyParts>), String> {
+) -> Result<Judged, String> {
     let machines = path.machines(&study.mounted);
     let place = |(nail, cut)| place(path, &machines, nail, cut);
     let places = nails.iter().zip(cuts).map(place).collect::<Result<_, String>>()?;
@@ -150,10 +170,13 @@ pub(super) fn values(
     let drawn =
         study.sampling.map(|s| many(part, (deviations, &shifts), s, progress)).transpose()?;
     let stated = study.mounted.stated_errors();
-    let without: Vec<Vec<f64>> = stated
+    let absent: Vec<Vec<f64>> =
+        stated.par_iter().map(|(index, _)| all.shifts_without(*index)).collect();
+    let without: Vec<Vec<f64>> = absent
         .par_iter()
-        .map(|(index, _)| evaluate(&added(deviations, &all.shifts_without(*index), 1.0)))
+        .map(|shifts| evaluate(&added(deviations, shifts, 1.0)))
         .collect::<Result<_, _>>()?;
+    let names: Vec<ErrorName> = stated.iter().map(|(_, name)| *name).collect();
     let mut effects: Vec<Vec<ErrorEffect>> = vec![Vec::new(); actual.len()];
     for ((_, error), without) in stated.iter().zip(without) {
         for (list, without_mm) in effects.iter_mut().zip(without) {
@@ -174,7 +197,21 @@ pub(super) fn values(
             errors,
         }
     };
-    Ok((part.characteristics.iter().enumerate().map(value).collect(), drawn))
+    let values = part.characteristics.iter().enumerate().map(value).collect();
+    let at = |point: usize| largest(names.iter().zip(&absent).map(|(n, s)| (*n, -s[point])));
+    let effects = (0..nails.len()).into_par_iter().map(at).collect();
+    Ok(Judged { values, drawn, effects })
+}
+
+/// The errors that displace a point most; those below a thousandth of the largest are not named.
+fn largest(parts: impl Iterator<Item = (ErrorName, f64)>) -> Vec<PointEffect> {
+    let mut all: Vec<PointEffect> =
+        parts.map(|(error, part_mm)| PointEffect { error, part_mm }).collect();
+    all.sort_by(|a, b| b.part_mm.abs().total_cmp(&a.part_mm.abs()));
+    let least_mm = 1e-3 * all.first().map_or(0.0, |e| e.part_mm.abs());
+    all.truncate(MOST_EFFECTS);
+    all.retain(|e| e.part_mm.abs() > least_mm);
+    all
 }
 
 fn place<'a>(

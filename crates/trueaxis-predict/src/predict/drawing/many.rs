@@ -4,8 +4,8 @@
 //! factors z of a machine ──Σ z × shift of each point by one u──> its surface ──Part::evaluate──> its values ──limits──> in tolerance?
 //! ```
 //!
-//! The surface follows the errors to first order, docs/model.md eq. 245 and 251; the values are those of that surface, without another
-//! approximation. [`cut_with`] cuts anew instead.
+//! The surface follows the errors to first order, docs/model.md eq. 245 and 321; the values are those of that surface, without another
+//! approximation. [`cut_with`] cuts again instead.
 
 use super::super::monte_carlo::{Sampling, Spread, spreads};
 use super::path::CutPath;
@@ -63,7 +63,7 @@ pub(super) fn many(
         Ok::<(), String>(())
     };
     let told = |done: usize| progress(done as f64 / sampling.samples as f64);
-    let found = spreads(sampling, [shifts.len(), 2 * count + 1], &sample, &told)?;
+    let found = spreads(sampling, [shifts.len(), 2 * count + 1], sample, &told)?;
     let (values, good) = found.split_at(count);
     let drawn =
         |(value, good): (&Spread, &Spread)| Drawn { spread: *value, good_ratio: good.mean_mm };
@@ -73,7 +73,7 @@ pub(super) fn many(
     })
 }
 
-/// The values of the part cut anew by a machine each of whose uncertain quantities is so many standard uncertainties off, in the order
+/// The values of the part cut again, by a machine each of whose uncertain quantities is so many standard uncertainties off, in the order
 /// of [`Machine::uncertain_quantities`], mm.
 ///
 /// # Errors
@@ -93,7 +93,7 @@ pub fn cut_with(study: &PartStudy, factors: &[f64]) -> Result<Vec<f64>, String> 
     };
     let mut path = CutPath::new(&study.job, &zero_mm);
     study.job.run(None, &mut [&mut path as &mut dyn Observer]);
-    path.displace(mounted, &tip)?;
+    path.displace(mounted, tip)?;
     let (actual, nominal) = path.sweeps()?;
     let mut problems = Diagnostics::new();
     let part = super::programmed::completed(study, &nominal, &mut problems);

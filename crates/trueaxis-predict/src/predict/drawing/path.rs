@@ -51,11 +51,11 @@ impl<'j> CutPath<'j> {
 
     /// Moves the actual tools to where a machine of other errors has them: deviations of tip and axis by machine with its tool, command
     /// and approach.
-    pub(super) fn displace(
+    pub(super) fn displace<E>(
         &mut self,
         mounted: &Machine,
-        deviation: &dyn Fn(&Machine, &Command, &Approach) -> Result<[Vec3; 2], String>,
-    ) -> Result<(), String> {
+        deviation: impl Fn(&Machine, &Command, &Approach) -> Result<[Vec3; 2], E>,
+    ) -> Result<(), E> {
         let machines = self.machines(mounted);
         for (stops, machine) in self.tools.values_mut().zip(&machines) {
             for stop in stops {
