@@ -9714,9 +9714,13 @@ export interface CharacteristicEntry {
    */
   kind: string;
   /**
-   * Of which feature.
+   * Of which feature or pattern.
    */
   feature: string;
+  /**
+   * The features that are meant: one, or all of the pattern.
+   */
+  features: string[];
   /**
    * To which features, the first datum first; empty: to the zero that was set.
    */
@@ -9804,7 +9808,7 @@ export interface FeatureEntry {
    */
   name: string;
   /**
-   * `plane`, `cylinder`, `cone`, `sphere`, `points` or `programmed surface`.
+   * `plane`, `cylinder`, `cone`, `sphere`, `torus`, `slot`, `tongue`, `points` or `programmed surface`.
    */
   shape: string;
   /**

@@ -58,6 +58,11 @@ impl Freedom {
         Self { pivot_mm, size_mm, twists: shifts.chain(turns).collect() }
     }
 
+    /// None of them.
+    pub fn none(&self) -> Self {
+        Self { twists: Vec::new(), ..self.clone() }
+    }
+
     /// How many independent motions there are.
     pub fn degrees(&self) -> usize {
         self.twists.len()

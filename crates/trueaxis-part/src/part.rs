@@ -9,6 +9,7 @@ mod characteristic;
 mod datum;
 mod feature;
 mod file;
+mod pattern;
 mod values;
 
 pub use characteristic::{Characteristic, Kind, Limits};

@@ -13,6 +13,8 @@ pub enum Kind {
     Cylindricity,
     /// Of a cylinder by least squares, its deviation from the nominal one: size (GG).
     Diameter,
+    /// Of a slot or a tongue by least squares, the same.
+    Width,
     /// Of any surface: the width of the zone about the nominal surface that holds all of it.
     Profile,
     /// Of a plane or an axis to datums, at the angle of the nominal part.
@@ -23,6 +25,8 @@ pub enum Kind {
     Perpendicularity,
     /// Of an axis about its nominal place, as a diameter; of a plane the width of the zone about it.
     Position,
+    /// Of the middle of a slot or a tongue about that of a datum: the width of the zone.
+    Symmetry,
     /// Of an axis about that of a datum, as a diameter.
     Coaxiality,
     /// Of the sections of a cylinder or cone about a datum axis: the largest range.
@@ -55,8 +59,10 @@ pub struct Characteristic {
     pub name: String,
     /// What is asked.
     pub kind: Kind,
-    /// Of which feature.
-    pub feature: usize,
+    /// The feature or the pattern that is meant.
+    pub of: String,
+    /// Its number, or those of the members of the pattern.
+    pub features: Vec<usize>,
     /// To which ones, the first of them first; none: to the zero that was set.
     pub datums: Vec<usize>,
     /// What is allowed.
@@ -65,17 +71,19 @@ pub struct Characteristic {
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 15] = [
         Self::Flatness,
         Self::Straightness,
         Self::Roundness,
         Self::Cylindricity,
         Self::Diameter,
+        Self::Width,
         Self::Profile,
         Self::Angularity,
         Self::Parallelism,
         Self::Perpendicularity,
         Self::Position,
+        Self::Symmetry,
         Self::Coaxiality,
         Self::CircularRunOut,
         Self::TotalRunOut,
@@ -89,11 +97,13 @@ impl Kind {
             Self::Roundness => "roundness",
             Self::Cylindricity => "cylindricity",
             Self::Diameter => "diameter",
+            Self::Width => "width",
             Self::Profile => "profile",
             Self::Angularity => "angularity",
             Self::Parallelism => "parallelism",
             Self::Perpendicularity => "perpendicularity",
             Self::Position => "position",
+            Self::Symmetry => "symmetry",
             Self::Coaxiality => "coaxiality",
             Self::CircularRunOut => "circular_run_out",
             Self::TotalRunOut => "total_run_out",
@@ -116,6 +126,7 @@ impl Kind {
             Self::Parallelism
                 | Self::Perpendicularity
                 | Self::Angularity
+                | Self::Symmetry
                 | Self::Coaxiality
                 | Self::CircularRunOut
                 | Self::TotalRunOut
@@ -127,9 +138,14 @@ impl Kind {
         !self.needs_datum() && !self.is_located()
     }
 
+    /// Whether it is a deviation of a size, with two limits.
+    pub fn is_size(self) -> bool {
+        matches!(self, Self::Diameter | Self::Width)
+    }
+
     /// Whether its zone has a place: the datums, or the zero that was set, fix all that would move it.
     pub fn is_located(self) -> bool {
-        matches!(self, Self::Profile | Self::Position)
+        matches!(self, Self::Profile | Self::Position | Self::Symmetry)
     }
 
     /// Whether its zone has a direction only.

@@ -49,13 +49,21 @@ pub(super) fn described(twist: &Twist) -> String {
 }
 
 impl DatumFrame {
+    /// The zero that was set; nothing is free.
+    pub fn of_zero() -> Self {
+        let free = Freedom::all(Vec3::zeros(), 1.0).none();
+        Self { motion: Motion::identity(), free }
+    }
+
     /// On the datum features as they were cut, in their order.
     pub fn on(surfaces: &[Surface<'_>], datums: &[usize], free: Freedom) -> Result<Self, Error> {
         let mut frame = Self { motion: Motion::identity(), free };
         for (rank, datum) in datums.iter().enumerate() {
             let surface = &surfaces[*datum];
             let step = match rank {
-                0 => surface.first()?,
+                0 if !matches!(surface.feature.geometry, Geometry::Slot { .. }) => {
+                    surface.first()?
+                }
                 _ => frame.next(surface)?,
             };
             frame.motion = frame.motion * step;
@@ -111,7 +119,8 @@ impl DatumFrame {
                 let [u, v] = circle.center_mm;
                 Ok(Pose::shift(shifts[0] * u + shifts[1] * v))
             }
-            Geometry::Sphere { .. } => {
+            // The widest that fits into a slot, the narrowest that fits about a tongue.
+            Geometry::Sphere { .. } | Geometry::Slot { .. } => {
                 Ok(place(&places, &free, &outside, Criterion::MinimumCircumscribed)?.motion)
             }
             _ => Err(no_datum()),
@@ -120,7 +129,7 @@ impl DatumFrame {
 }
 
 fn no_datum() -> Error {
-    unfit("a datum that is neither a plane, a cylinder nor a sphere")
+    unfit("a datum that is neither a plane, a slot, a cylinder nor a sphere")
 }
 
 impl Surface<'_> {
@@ -129,6 +138,20 @@ impl Surface<'_> {
     pub(super) fn datum(&self) -> Result<Shape, Error> {
         if let Some(found) = self.datum.get() {
             return Ok(*found);
+        }
+        if let Some(Geometry::Plane { at_mm, normal, .. }) = self.feature.geometry.median() {
+            let free = all_degrees(std::slice::from_ref(self.feature));
+            let motion = DatumFrame { motion: Motion::identity(), free }.next(self)?;
+            let point_mm = (motion * Point::from_vector(at_mm)).vector();
+            let direction = motion.linear() * normal;
+            let found = Shape {
+                element: Element::Plane,
+                point_mm,
+                direction,
+                radius_mm: 0.0,
+                half_angle_rad: 0.0,
+            };
+            return Ok(*self.datum.get_or_init(|| found));
         }
         let (kind, criterion) = match self.feature.geometry {
             Geometry::Plane { .. } => (Element::Plane, Criterion::MinimumZone),

@@ -1,5 +1,8 @@
 //! Features: nominal surfaces and the points on them that are checked.
 
+mod moved;
+mod sampled;
+
 use std::ops::Range;
 use trueaxis_form::{Element, Shape};
 use trueaxis_geometry::Vec3;
@@ -61,6 +64,36 @@ pub enum Geometry {
         /// Material is outside.
         is_hole: bool,
     },
+    /// A part of a ring of round section: a rounding, a ball groove.
+    Torus {
+        /// The centre.
+        at_mm: Vec3,
+        /// Its axis, a unit vector.
+        axis: Vec3,
+        /// From the axis to the middle of the section.
+        ring_mm: f64,
+        /// Radius of the section.
+        radius_mm: f64,
+        /// Where the section begins and ends: 0 away from the axis, 90° along it.
+        section_rad: [f64; 2],
+        /// Material is outside of the section.
+        is_hole: bool,
+    },
+    /// Two parallel planes that face each other, of a slot, or away from each other, of a tongue.
+    Slot {
+        /// Its middle.
+        at_mm: Vec3,
+        /// From one face to the other, a unit vector.
+        across: Vec3,
+        /// Along its first edge, a unit vector.
+        along: Vec3,
+        /// Lengths of the edges of its faces.
+        size_mm: [f64; 2],
+        /// From face to face.
+        width_mm: f64,
+        /// Material is outside.
+        is_hole: bool,
+    },
     /// A table of points with their normals.
     Points,
     /// What the program leaves on a machine without errors, seen through a rectangle; its points are found by the nominal cut.
@@ -85,6 +118,8 @@ pub struct Feature {
     pub name: String,
     /// The letter that it has as a datum.
     pub letter: Option<String>,
+    /// The name of the pattern that it belongs to.
+    pub pattern: Option<String>,
     /// Its nominal shape.
     pub geometry: Geometry,
     /// Points on it with the normals out of the material.
@@ -112,6 +147,9 @@ impl Geometry {
             Self::Cylinder { .. } => "cylinder",
             Self::Cone { .. } => "cone",
             Self::Sphere { .. } => "sphere",
+            Self::Torus { .. } => "torus",
+            Self::Slot { is_hole: true, .. } => "slot",
+            Self::Slot { .. } => "tongue",
             Self::Points => "points",
             Self::Programmed { .. } => "programmed surface",
         }
@@ -145,8 +183,24 @@ impl Geometry {
     pub(super) fn direction(&self) -> Option<Vec3> {
         match *self {
             Self::Plane { normal, .. } => Some(normal),
+            Self::Slot { across, .. } => Some(across),
             _ => self.axis().map(|(_, axis)| axis),
         }
+    }
+
+    /// The plane in the middle between the faces of a slot or a tongue.
+    pub(super) fn median(&self) -> Option<Self> {
+        match *self {
+            Self::Slot { at_mm, across, along, size_mm, .. } => {
+                Some(Self::Plane { at_mm, normal: across, along, size_mm })
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether it is a plane, or has one in its middle.
+    pub(super) fn is_flat(&self) -> bool {
+        matches!(self, Self::Plane { .. } | Self::Slot { .. })
     }
 
     /// How far a point is outside of the material, and the direction in which that grows; none of a table of points.
@@ -176,6 +230,20 @@ impl Geometry {
                 let sign = sign(is_hole);
                 Some((sign * (arm.norm() - radius_mm), unit(arm) * sign))
             }
+            Self::Torus { at_mm, axis, ring_mm, radius_mm, is_hole, .. } => {
+                let arm = point_mm - at_mm;
+                let height = arm.dot(&axis);
+                let out = arm - axis * height;
+                // From the middle of the section to the point.
+                let from = arm - unit(out) * ring_mm;
+                let sign = sign(is_hole);
+                Some((sign * (from.norm() - radius_mm), unit(from) * sign))
+            }
+            Self::Slot { at_mm, across, width_mm, is_hole, .. } => {
+                let off = across.dot(&(point_mm - at_mm));
+                let sign = sign(is_hole);
+                Some((sign * (off.abs() - 0.5 * width_mm), across * (sign * off.signum())))
+            }
             Self::Points | Self::Programmed { .. } => None,
         }
     }
@@ -184,117 +252,6 @@ impl Geometry {
     pub(super) fn distances(&self) -> impl Fn(usize, &Vec3) -> (f64, Vec3) + '_ {
         |_, place| self.outside(place).unwrap_or((f64::NAN, Vec3::zeros()))
     }
-
-    /// Points no farther apart than `spacing_mm`, and which of them make a section; half a step from edges, where two surfaces
-    /// meet.
-    ///
-    /// # Errors
-    /// In words: too many points.
-    pub fn sampled(
-        &self,
-        spacing_mm: f64,
-    ) -> Result<(Vec<SurfacePoint>, Vec<Range<usize>>), String> {
-        let rows = self.rows(spacing_mm);
-        let count: usize = rows.iter().map(|row| row.count).fold(0, usize::saturating_add);
-        if count > MOST_POINTS {
-            return Err(format!(
-                "a spacing of {spacing_mm} mm makes {count} points, at most {MOST_POINTS} are checked"
-            ));
-        }
-        let (mut points, mut sections) = (Vec::with_capacity(count), Vec::new());
-        for row in rows {
-            let from = points.len();
-            points.extend((0..row.count).map(|k| (row.at)(k)));
-            sections.push(from..points.len());
-        }
-        if self.axis().is_none() {
-            sections.clear();
-        }
-        Ok((points, sections))
-    }
-
-    fn rows(&self, spacing_mm: f64) -> Vec<Row> {
-        match *self {
-            Self::Plane { at_mm, normal, along, size_mm }
-            | Self::Programmed { at_mm, normal, along, size_mm, .. } => {
-                let across = normal.cross(&along);
-                let counts = size_mm.map(|size| steps(size, spacing_mm));
-                let offset =
-                    move |i: usize, k: usize| size_mm[i] * middle(k, counts[i]) - 0.5 * size_mm[i];
-                let row = |j: usize| {
-                    let from = at_mm + across * offset(1, j);
-                    Row::new(counts[0], move |i| point(from + along * offset(0, i), normal))
-                };
-                (0..counts[1]).map(row).collect()
-            }
-            Self::Cylinder { at_mm, axis, radius_mm, length_mm, is_hole } => {
-                round(at_mm, axis, [radius_mm; 2], length_mm, (is_hole, spacing_mm))
-            }
-            Self::Cone { at_mm, axis, radii_mm, length_mm, is_hole } => {
-                round(at_mm, axis, radii_mm, length_mm, (is_hole, spacing_mm))
-            }
-            Self::Sphere { at_mm, axis, radius_mm, opening_rad, is_hole } => {
-                let [x, y] = across(&axis);
-                let sign = if is_hole { -1.0 } else { 1.0 };
-                let count = steps(radius_mm * opening_rad, spacing_mm);
-                let row = |j: usize| {
-                    let (sin, cos) = (opening_rad * middle(j, count)).sin_cos();
-                    let around = turns(radius_mm * sin, spacing_mm);
-                    Row::new(around, move |k| {
-                        let (s, c) = turn(k, around).sin_cos();
-                        let out = axis * cos + (x * c + y * s) * sin;
-                        point(at_mm + out * radius_mm, out * sign)
-                    })
-                };
-                (0..count).map(row).collect()
-            }
-            Self::Points => Vec::new(),
-        }
-    }
-}
-
-/// Points of a row, made one by one so that too many are never made.
-struct Row {
-    count: usize,
-    at: Box<dyn Fn(usize) -> SurfacePoint>,
-}
-
-impl Row {
-    fn new(count: usize, at: impl Fn(usize) -> SurfacePoint + 'static) -> Self {
-        Self { count, at: Box::new(at) }
-    }
-}
-
-/// Sections of a cylinder or cone.
-fn round(
-    at_mm: Vec3,
-    axis: Vec3,
-    radii_mm: [f64; 2],
-    length_mm: f64,
-    (is_hole, spacing_mm): (bool, f64),
-) -> Vec<Row> {
-    let [x, y] = across(&axis);
-    let sign = if is_hole { -1.0 } else { 1.0 };
-    let rise = radii_mm[1] - radii_mm[0];
-    let slant = length_mm.hypot(rise);
-    let count = steps(slant, spacing_mm).max(2);
-    let around = turns(radii_mm[0].max(radii_mm[1]), spacing_mm);
-    let row = |j: usize| {
-        let along = middle(j, count);
-        let radius = radii_mm[0] + rise * along;
-        let from = at_mm + axis * (length_mm * along);
-        Row::new(around, move |k| {
-            let (s, c) = turn(k, around).sin_cos();
-            let out = x * c + y * s;
-            let normal = (out * length_mm - axis * rise) / slant;
-            point(from + out * radius, normal * sign)
-        })
-    };
-    (0..count).map(row).collect()
-}
-
-fn point(point_mm: Vec3, normal: Vec3) -> SurfacePoint {
-    SurfacePoint { point_mm, normal, axis: normal, line: 0 }
 }
 
 /// Two directions across an axis, at right angles to each other.
@@ -302,27 +259,4 @@ pub(super) fn across(axis: &Vec3) -> [Vec3; 2] {
     let any = if axis.x.abs() < 0.9 { Vec3::x() } else { Vec3::y() };
     let x = (any - axis * axis.dot(&any)).normalize();
     [x, axis.cross(&x)]
-}
-
-/// As many steps of at most the spacing as a length has.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the quotient is positive, and larger ones are limited"
-)]
-fn steps(length_mm: f64, spacing_mm: f64) -> usize {
-    ((length_mm / spacing_mm).ceil() as usize).clamp(1, MOST_POINTS)
-}
-
-/// Points around a circle: no fewer than show its form.
-fn turns(radius_mm: f64, spacing_mm: f64) -> usize {
-    steps(std::f64::consts::TAU * radius_mm, spacing_mm).max(24)
-}
-
-fn middle(step: usize, count: usize) -> f64 {
-    (step as f64 + 0.5) / count as f64
-}
-
-fn turn(step: usize, count: usize) -> f64 {
-    std::f64::consts::TAU * step as f64 / count as f64
 }

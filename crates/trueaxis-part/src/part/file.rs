@@ -1,11 +1,16 @@
 //! The part file.
 
 mod characteristics;
+mod openings;
+mod repeat;
+mod shapes;
 
 use super::feature::MOST_POINTS;
 use super::{Characteristic, Feature, Geometry, Part};
 use characteristics::read_characteristic;
-use std::f64::consts::PI;
+use openings::openings;
+use repeat::repeated;
+use shapes::{SHAPES, read_geometry, usual_spacing};
 use std::path::Path;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::surface::SurfacePoint;
@@ -40,12 +45,14 @@ impl Part {
         if let Some(item) = root.require("feature", hint) {
             item.section("feature", |section| {
                 for (key, _, item) in section.entries() {
-                    let feature = item.section(key, |s| read_feature(s, key, folder)).flatten();
-                    complete &= feature.is_some();
-                    features.extend(feature);
+                    let read = |s: &Section<'_>| repeated(s, read_feature(s, key, folder)?);
+                    let found = item.section(key, read).flatten();
+                    complete &= found.is_some();
+                    features.extend(found.unwrap_or_default());
                 }
             });
         }
+        complete &= is_unique(root, &features);
         let hint = "[[characteristic]] with flatness = \"20 um\", of = \"top\"";
         let asked = root.require("characteristic", hint).and_then(|i| i.list()).unwrap_or_default();
         let read = |item: &Item<'_>| {
@@ -61,23 +68,25 @@ impl Part {
     }
 }
 
+/// Names of members of patterns are not those of other features.
+fn is_unique(root: &Section<'_>, features: &[Feature]) -> bool {
+    let twice = features.iter().enumerate().find(|(i, f)| {
+        let names = [Some(&f.name), f.pattern.as_ref()];
+        features[..*i].iter().any(|other| names.contains(&Some(&other.name)))
+    });
+    if let Some((_, feature)) = twice {
+        let message = format!("two features have the name `{}`", feature.name);
+        root.error("double-feature", message, "members of patterns are numbered: NAME_1, NAME_2 …");
+    }
+    twice.is_none()
+}
+
 fn read_feature(section: &Section<'_>, name: &str, folder: &Path) -> Option<Feature> {
-    let kinds = [
-        "plane",
-        "cylinder",
-        "hole",
-        "cone",
-        "conical_hole",
-        "sphere",
-        "hollow_sphere",
-        "points",
-        "programmed",
-    ];
     let stated: Vec<(&str, Item<'_>)> =
-        kinds.iter().filter_map(|kind| section.get(kind).map(|item| (*kind, item))).collect();
+        SHAPES.iter().filter_map(|kind| section.get(kind).map(|item| (*kind, item))).collect();
     let [(kind, item)] = stated[..] else {
         let message = format!("feature `{name}` has {} shapes, expected one", stated.len());
-        section.error("one-shape", message, &format!("one of {}", kinds.join(", ")));
+        section.error("one-shape", message, &format!("one of {}", SHAPES.join(", ")));
         return None;
     };
     let letter = section.text("datum").map(str::to_owned);
@@ -91,6 +100,7 @@ fn read_feature(section: &Section<'_>, name: &str, folder: &Path) -> Option<Feat
         return Some(Feature {
             name: name.to_owned(),
             letter,
+            pattern: None,
             geometry: Geometry::Points,
             points: points?,
             sections: Vec::new(),
@@ -122,188 +132,13 @@ fn read_feature(section: &Section<'_>, name: &str, folder: &Path) -> Option<Feat
     Some(Feature {
         name: name.to_owned(),
         letter,
+        pattern: None,
         geometry,
         points,
         sections,
         below_mm: below_mm?,
         above_mm: above_mm?,
     })
-}
-
-/// Where a plane is not: seen along its normal a circle or a rectangle.
-struct Opening {
-    at_mm: Vec3,
-    edges: [Vec3; 2],
-    normal: Vec3,
-    /// Half of the edges, or the radius twice.
-    half_mm: [f64; 2],
-    is_round: bool,
-}
-
-impl Opening {
-    fn contains(&self, point: &Vec3) -> bool {
-        let arm = point - self.at_mm;
-        match self.is_round {
-            true => (arm - self.normal * arm.dot(&self.normal)).norm() <= self.half_mm[0],
-            false => (0..2).all(|k| arm.dot(&self.edges[k]).abs() <= self.half_mm[k]),
-        }
-    }
-}
-
-/// `openings = [{ at = "35 15 0 mm", diameter = "32 mm" }, { at = "-25 0 0 mm", size = "52 32 mm" }]`.
-fn openings(section: &Section<'_>, geometry: &Geometry) -> Option<Vec<Opening>> {
-    let Some(item) = section.get("openings") else { return Some(Vec::new()) };
-    let Geometry::Plane { normal, along, .. } = *geometry else {
-        let message = "only a plane has `openings`".to_owned();
-        item.error("wrong-feature", message, "divide the feature, or take a table of points");
-        return None;
-    };
-    let read = |one: &Item<'_>| one.section("openings", |s| opening(s, normal, along)).flatten();
-    let all: Vec<Option<Opening>> = item.list()?.iter().map(read).collect();
-    all.into_iter().collect()
-}
-
-fn opening(section: &Section<'_>, normal: Vec3, along: Vec3) -> Option<Opening> {
-    let at = section.require("at", "its middle: at = \"35 15 0 mm\"").and_then(|i| i.lengths());
-    let diameter = section.get("diameter").map(|i| positive(&i, "diameter"));
-    let size = section.get("size").map(|i| i.lengths::<2>());
-    let (half_mm, is_round) = match (diameter, size) {
-        (Some(diameter), None) => ([0.5 * diameter?; 2], true),
-        (None, Some(size)) => (size?.map(|s| 0.5 * s), false),
-        _ => {
-            let message = "an opening has a diameter or a size".to_owned();
-            section.error("one-shape", message, "diameter = \"32 mm\" or size = \"52 32 mm\"");
-            return None;
-        }
-    };
-    let edges = [along, normal.cross(&along)];
-    Some(Opening { at_mm: Vec3::from(at?), edges, normal, half_mm, is_round })
-}
-
-/// Some 20 points along the longer side, 36 to 72 around.
-fn usual_spacing(geometry: &Geometry) -> f64 {
-    // Five sections where that does not crowd the points of each: short cylinders have fewer.
-    let round = |radius_mm: f64, length_mm: f64| {
-        let around = PI * radius_mm / 18.0;
-        around.min((0.2 * length_mm).max(0.5 * around))
-    };
-    match geometry {
-        Geometry::Plane { size_mm, .. } => 0.05 * size_mm[0].max(size_mm[1]),
-        Geometry::Cylinder { radius_mm, length_mm, .. } => round(*radius_mm, *length_mm),
-        Geometry::Cone { radii_mm, length_mm, .. } => {
-            round(radii_mm[0].max(radii_mm[1]), *length_mm)
-        }
-        Geometry::Sphere { radius_mm, opening_rad, .. } => 0.1 * radius_mm * opening_rad,
-        Geometry::Programmed { size_mm, .. } => 0.025 * size_mm[0].max(size_mm[1]),
-        Geometry::Points => 1.0,
-    }
-}
-
-fn read_geometry(section: &Section<'_>, kind: &str) -> Option<Geometry> {
-    let at_mm = section
-        .require("at", "a place in the workpiece frame: at = \"0 0 0 mm\"")
-        .and_then(|i| i.lengths())
-        .map(Vec3::from);
-    let unit = |key: &str, hint: &str| {
-        section.require(key, hint).and_then(|i| i.direction()).map(Vec3::from)
-    };
-    let size = |key: &str, hint: &str| section.require(key, hint).and_then(|i| positive(&i, key));
-    let is_hole = matches!(kind, "hole" | "conical_hole" | "hollow_sphere");
-    let axis_hint = "along the axis from `at` on: axis = \"0 0 1\"";
-    match kind {
-        "plane" => {
-            let (normal, along, size_mm) = read_rectangle(section, "out of the material")?;
-            Some(Geometry::Plane { at_mm: at_mm?, normal, along, size_mm })
-        }
-        "programmed" => {
-            let depth = size("depth", "how far beyond the rectangle: depth = \"20 mm\"");
-            let (normal, along, size_mm) = read_rectangle(section, "towards the eye")?;
-            let depth_mm = depth?;
-            Some(Geometry::Programmed { at_mm: at_mm?, normal, along, size_mm, depth_mm })
-        }
-        "cylinder" | "hole" => {
-            let axis = unit("axis", axis_hint);
-            let diameter = size("diameter", "diameter = \"30 mm\"");
-            let length = size("length", "along the axis: length = \"20 mm\"");
-            Some(Geometry::Cylinder {
-                at_mm: at_mm?,
-                axis: axis?,
-                radius_mm: 0.5 * diameter?,
-                length_mm: length?,
-                is_hole,
-            })
-        }
-        "cone" | "conical_hole" => {
-            let axis = unit("axis", axis_hint);
-            let diameters = section
-                .require("diameters", "at both ends: diameters = \"30 20 mm\"")
-                .and_then(|i| i.lengths::<2>());
-            let length = size("length", "along the axis: length = \"20 mm\"");
-            let radii_mm = diameters?.map(|d| 0.5 * d);
-            if radii_mm.iter().any(|r| *r < 0.0) || radii_mm[0].max(radii_mm[1]) <= 0.0 {
-                section.error(
-                    "not-positive",
-                    "`diameters` must be positive".into(),
-                    "one of them may be 0",
-                );
-                return None;
-            }
-            Some(Geometry::Cone {
-                at_mm: at_mm?,
-                axis: axis?,
-                radii_mm,
-                length_mm: length?,
-                is_hole,
-            })
-        }
-        _ => {
-            let axis = unit("axis", "the middle of the part that there is: axis = \"0 0 1\"");
-            let diameter = size("diameter", "diameter = \"30 mm\"");
-            let hint = "from the axis to the edge: opening = \"60 deg\"";
-            let opening =
-                section.require("opening", hint).and_then(|i| i.quantity(Dimension::Angle));
-            let opening_rad = opening?;
-            if !(opening_rad > 0.0 && opening_rad <= PI) {
-                section.error("bad-angle", "`opening` must be from 0 to 180 deg".into(), hint);
-                return None;
-            }
-            let radius_mm = 0.5 * diameter?;
-            Some(Geometry::Sphere { at_mm: at_mm?, axis: axis?, radius_mm, opening_rad, is_hole })
-        }
-    }
-}
-
-/// `normal`, `along` and `size`.
-fn read_rectangle(section: &Section<'_>, is: &str) -> Option<(Vec3, Vec3, [f64; 2])> {
-    let normal = section
-        .require("normal", &format!("{is}: normal = \"0 0 1\""))
-        .and_then(|i| i.direction())
-        .map(Vec3::from);
-    let along = match section.get("along") {
-        Some(item) => item.direction().map(Vec3::from).map(Some),
-        None => Some(None),
-    };
-    let hint = "along its edges: size = \"80 60 mm\"";
-    let size = section.require("size", hint).and_then(|i| i.lengths::<2>());
-    let (normal, along, size_mm) = (normal?, along?, size?);
-    if size_mm.iter().any(|s| *s <= 0.0) {
-        section.error("not-positive", "`size` must be positive".into(), "two lengths of edges");
-        return None;
-    }
-    let along = match along {
-        None => super::feature::across(&normal)[0],
-        Some(along) => {
-            let within = along - normal * normal.dot(&along);
-            if within.norm() < 0.9 {
-                let message = "`along` does not lie in the plane".to_owned();
-                let hint = "a direction at right angles to `normal`";
-                section.error("bad-direction", message, hint);
-                return None;
-            }
-            within.normalize()
-        }
-    };
-    Some((normal, along, size_mm))
 }
 
 fn positive(item: &Item<'_>, key: &str) -> Option<f64> {

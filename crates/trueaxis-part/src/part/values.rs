@@ -2,8 +2,10 @@
 
 use super::datum::{DatumFrame, all_degrees, held};
 use super::feature::across;
+use super::pattern;
 use super::{Characteristic, Feature, Geometry, Kind, Part};
 use crate::Error;
+use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::ops::Range;
 use trueaxis_form::circle::Fitter;
@@ -74,7 +76,10 @@ impl<'p> Systems<'p> {
         if let Some((_, frame)) = self.found.iter().find(|(of, _)| *of == datums) {
             return Ok(frame.clone());
         }
-        let frame = DatumFrame::on(surfaces, datums, all_degrees(self.features))?;
+        let frame = match datums.is_empty() {
+            true => DatumFrame::of_zero(),
+            false => DatumFrame::on(surfaces, datums, all_degrees(self.features))?,
+        };
         self.found.push((datums, frame.clone()));
         Ok(frame)
     }
@@ -85,7 +90,24 @@ fn value<'p>(
     surfaces: &[Surface<'_>],
     systems: &mut Systems<'p>,
 ) -> Result<f64, Error> {
-    let surface = &surfaces[asked.feature];
+    if let (Kind::Position, [_, _, ..]) = (asked.kind, &asked.features[..]) {
+        let members: Vec<&Surface<'_>> = asked.features.iter().map(|f| &surfaces[*f]).collect();
+        return pattern::position(&members, &systems.frame(surfaces, &asked.datums)?);
+    }
+    let each = asked.features.iter().map(|f| of_one(asked, &surfaces[*f], surfaces, systems));
+    let values = each.collect::<Result<Vec<f64>, _>>()?;
+    // Of a pattern the one that is nearest to its limit.
+    let room = |v: &f64| asked.limits.room_mm(*v);
+    let worst = values.into_iter().min_by(|a, b| room(a).total_cmp(&room(b)));
+    worst.ok_or_else(|| unfit("a characteristic of no feature"))
+}
+
+fn of_one<'p>(
+    asked: &'p Characteristic,
+    surface: &Surface<'_>,
+    surfaces: &[Surface<'_>],
+    systems: &mut Systems<'p>,
+) -> Result<f64, Error> {
     let datum = || match asked.datums[..] {
         [datum] => surfaces[datum].datum(),
         _ => Err(unfit("a characteristic without the datum that it needs")),
@@ -97,15 +119,11 @@ fn value<'p>(
         Kind::Straightness => surface.straightness(),
         Kind::Roundness => surface.roundness(),
         Kind::Diameter => surface.diameter(),
-        Kind::Profile | Kind::Position if !asked.datums.is_empty() => {
-            let frame = systems.frame(surfaces, &asked.datums)?;
-            surface.located(&frame, asked.kind == Kind::Position)
+        Kind::Width => surface.width(),
+        Kind::Profile => surface.profile(&systems.frame(surfaces, &asked.datums)?),
+        Kind::Position | Kind::Symmetry => {
+            surface.position(&systems.frame(surfaces, &asked.datums)?)
         }
-        Kind::Profile => Ok(2.0 * surface.farthest_mm()),
-        Kind::Position => match surface.feature.geometry.axis() {
-            Some((at, axis)) => surface.about_axis(&at, &axis),
-            None => Ok(2.0 * surface.farthest_mm()),
-        },
         Kind::Parallelism if is_single => surface.oriented(&datum()?, true),
         Kind::Perpendicularity if is_single => surface.oriented(&datum()?, false),
         Kind::Parallelism | Kind::Perpendicularity | Kind::Angularity => {
@@ -162,8 +180,29 @@ impl Surface<'_> {
         Ok(2.0 * (found.shape.radius_mm - radius_mm))
     }
 
-    fn farthest_mm(&self) -> f64 {
-        self.deviation_mm.iter().fold(0.0, |most: f64, d| most.max(d.abs()))
+    /// Material on the faces makes a slot narrower and a tongue wider. The faces have the same points about the same middle, so that what
+    /// leans does not change the means.
+    fn width(&self) -> Result<f64, Error> {
+        let Geometry::Slot { is_hole, .. } = self.feature.geometry else {
+            return Err(unfit("the width of what is neither a slot nor a tongue"));
+        };
+        let mean = self.deviation_mm.iter().sum::<f64>() / self.deviation_mm.len() as f64;
+        Ok(if is_hole { -2.0 * mean } else { 2.0 * mean })
+    }
+
+    /// Half-way between the points of a slot or a tongue that face each other, and the plane in which they should be.
+    pub(super) fn median(&self) -> Option<(Geometry, Vec<Vec3>)> {
+        let plane = self.feature.geometry.median()?;
+        let (one, other) = self.places_mm.split_at(self.places_mm.len() / 2);
+        Some((plane, one.iter().zip(other).map(|(a, b)| 0.5 * (a + b)).collect()))
+    }
+
+    /// What has a direction and no axis: the points of a plane, the middle of a slot.
+    pub(super) fn flat(&self) -> (Geometry, Cow<'_, [Vec3]>) {
+        match self.median() {
+            Some((plane, places)) => (plane, Cow::Owned(places)),
+            None => (self.feature.geometry, Cow::Borrowed(&self.places_mm)),
+        }
     }
 
     /// The axis, and each section across it in coordinates of its plane.
@@ -193,7 +232,7 @@ impl Surface<'_> {
     }
 
     /// The centres of the sections by least squares: the extracted median line.
-    fn median_line(&self) -> Result<Vec<Vec3>, Error> {
+    pub(super) fn median_line(&self) -> Result<Vec<Vec3>, Error> {
         let Sections { axis, across: [x, y], flat_mm } = self.sections()?;
         let mut fitter = Fitter::default();
         let centre = |(flat, section): (&Vec<[f64; 2]>, &Range<usize>)| {
@@ -215,12 +254,9 @@ impl Surface<'_> {
         Ok(found.form_mm())
     }
 
-    /// Twice the largest distance from the nominal place in the frame of the datums: of the median line, of the surface.
-    fn located(&self, frame: &DatumFrame, is_position: bool) -> Result<f64, Error> {
+    /// Twice the largest distance of the surface from the nominal one in the frame of the datums.
+    fn profile(&self, frame: &DatumFrame) -> Result<f64, Error> {
         let geometry = self.feature.geometry;
-        if let (true, Some((at, axis))) = (is_position, geometry.axis()) {
-            return Ok(2.0 * farthest(&frame.seen(&self.median_line()?), &at, &axis));
-        }
         let seen = frame.seen(&self.places_mm);
         let off = |(place, nominal): (&Vec3, &SurfacePoint)| match geometry.outside(place) {
             Some((distance, _)) => distance.abs(),
@@ -230,16 +266,26 @@ impl Surface<'_> {
         Ok(2.0 * seen.iter().zip(&self.feature.points).map(off).fold(0.0, f64::max))
     }
 
+    /// Twice the largest distance of the median line, of the middle of a slot, of a plane from its nominal place in the frame of the datums.
+    fn position(&self, frame: &DatumFrame) -> Result<f64, Error> {
+        if let Some((at, axis)) = self.feature.geometry.axis() {
+            return Ok(2.0 * farthest(&frame.seen(&self.median_line()?), &at, &axis));
+        }
+        let (plane, places) = self.flat();
+        let off = |p: &Vec3| plane.outside(p).map_or(f64::NAN, |(distance, _)| distance.abs());
+        Ok(2.0 * frame.seen(&places).iter().map(off).fold(0.0, f64::max))
+    }
+
     /// At its angle in the frame of the datums; what they leave free turns the zone to where it is narrowest.
     fn oriented_by(&self, frame: &DatumFrame) -> Result<f64, Error> {
         let geometry = self.feature.geometry;
         if let Some((_, axis)) = geometry.axis() {
             return narrowest_about(&frame.seen(&self.median_line()?), &axis);
         }
-        let seen = frame.seen(&self.places_mm);
+        let (plane, places) = self.flat();
         // Shifts change no width.
         let free = frame.free.moving(&held(self.feature));
-        let zone = place(&seen, &free, &geometry.distances(), Criterion::MinimumZone)?;
+        let zone = place(&frame.seen(&places), &free, &plane.distances(), Criterion::MinimumZone)?;
         Ok(zone.high_mm - zone.low_mm)
     }
 
@@ -251,8 +297,8 @@ impl Surface<'_> {
         let along = |places: &[Vec3]| places.iter().map(|p| p.dot(&direction)).collect::<Vec<_>>();
         match self.feature.geometry.axis() {
             // The planes of the zone have this normal, or one across it.
-            None if is_axis != is_parallel => Ok(range(along(&self.places_mm))),
-            None => least_range(&self.places_mm, &direction),
+            None if is_axis != is_parallel => Ok(range(along(&self.flat().1))),
+            None => least_range(&self.flat().1, &direction),
             // The axis of the zone is the direction of the datum.
             Some(_) if is_axis == is_parallel => narrowest_about(&self.median_line()?, &direction),
             Some(_) => Ok(range(along(&self.median_line()?))),

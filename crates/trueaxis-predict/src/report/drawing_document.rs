@@ -45,8 +45,10 @@ pub struct CharacteristicEntry<'a> {
     pub name: &'a str,
     /// What is asked, such as `flatness`.
     pub kind: &'static str,
-    /// Of which feature.
+    /// Of which feature or pattern.
     pub feature: &'a str,
+    /// The features that are meant: one, or all of the pattern.
+    pub features: Vec<&'a str>,
     /// To which features, the first datum first; empty: to the zero that was set.
     pub datums: Vec<&'a str>,
     /// Its value; of a size the deviation from the nominal one, mm.
@@ -105,7 +107,7 @@ pub struct ErrorEffectEntry {
 pub struct FeatureEntry<'a> {
     /// Its name.
     pub name: &'a str,
-    /// `plane`, `cylinder`, `cone`, `sphere`, `points` or `programmed surface`.
+    /// `plane`, `cylinder`, `cone`, `sphere`, `torus`, `slot`, `tongue`, `points` or `programmed surface`.
     pub shape: &'static str,
     /// How many points it has.
     pub points: usize,
@@ -207,7 +209,8 @@ impl<'a> CharacteristicEntry<'a> {
         Self {
             name: &asked.name,
             kind: asked.kind.key(),
-            feature: &features[asked.feature].name,
+            feature: &asked.of,
+            features: asked.features.iter().map(|f| features[*f].name.as_str()).collect(),
             datums: asked.datums.iter().map(|d| features[*d].name.as_str()).collect(),
             value_mm: value.value_mm,
             u_mm: value.u_mm,

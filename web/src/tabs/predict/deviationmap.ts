@@ -47,7 +47,7 @@ export class DeviationMap {
   private frame: Frame<DrawingHeader> | null = null;
   /** The number of the feature of each point. */
   private owner = new Uint32Array();
-  private feature: number | null = null;
+  private marked: ReadonlySet<number> | null = null;
   private most = 1;
   private range = 1;
   private k = 1;
@@ -79,7 +79,7 @@ export class DeviationMap {
   show(frame: Frame<DrawingHeader>): void {
     const { features } = frame.header.document;
     this.frame = frame;
-    this.feature = null;
+    this.marked = null;
     this.owner = Uint32Array.from(features.flatMap((f, i) => Array.from({ length: f.points }, () => i)));
     const deviations = frame.f32("deviation_um");
     const worst = this.worst();
@@ -95,18 +95,18 @@ export class DeviationMap {
     this.pick(worst);
   }
 
-  /** Shows one feature in its full size, the others small, and picks its worst point. */
-  mark(feature: number): void {
-    this.feature = feature;
+  /** Shows some features in their full size, the others small, and picks their worst point. */
+  mark(features: readonly number[]): void {
+    this.marked = new Set(features);
     this.place();
     this.pick(this.worst());
   }
 
-  /** The point of the marked feature, or of all, with the greatest deviation. */
+  /** The point of the marked features, or of all, with the greatest deviation. */
   private worst(): number {
     const deviations = this.frame?.f32("deviation_um") ?? new Float32Array();
     const size = (i: number): number =>
-      this.feature === null || this.owner[i] === this.feature ? Math.abs(deviations[i] ?? 0) : -1;
+      this.marked === null || this.marked.has(this.owner[i] ?? 0) ? Math.abs(deviations[i] ?? 0) : -1;
     return deviations.reduce((w, _, i) => (size(i) > size(w) ? i : w), 0);
   }
 
@@ -161,7 +161,7 @@ export class DeviationMap {
     const [turn, size, matrix] = [new Quaternion(), new Vector3(), new Matrix4()];
     for (let i = 0; i < mesh.count; i++) {
       const owner = this.owner[i] ?? 0;
-      const small = this.feature !== null && this.feature !== owner ? 0.35 : FILLED;
+      const small = this.marked !== null && !this.marked.has(owner) ? 0.35 : FILLED;
       turn.setFromUnitVectors(front, normal.fromArray(normals, 3 * i));
       size.setScalar(small * (features[owner]?.spacing_mm ?? 1));
       mesh.setMatrixAt(i, matrix.compose(this.at(i), turn, size));

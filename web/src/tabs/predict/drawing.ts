@@ -116,7 +116,7 @@ export class Drawing {
     this.chosen = i;
     this.showValues(document);
     this.showBudget(value);
-    this.map.mark(document.features.findIndex((f) => f.name === value.feature));
+    this.map.mark(document.features.flatMap((f, k) => (value.features.includes(f.name) ? [k] : [])));
   }
 
   private showBudget(value: CharacteristicValue): void {

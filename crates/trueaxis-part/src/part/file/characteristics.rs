@@ -40,7 +40,16 @@ pub(super) fn read_characteristic(
     };
     let feature = section
         .require("of", "the name of a feature: of = \"top\"")
-        .and_then(|item| named("of", item.text()?));
+        .and_then(|item| item.text())
+        .and_then(|word| {
+            let is_member = |f: &Feature| f.pattern.as_deref() == Some(word);
+            let members: Vec<usize> =
+                (0..features.len()).filter(|i| is_member(&features[*i])).collect();
+            match members.is_empty() {
+                true => named("of", word).map(|one| (word, vec![one])),
+                false => Some((word, members)),
+            }
+        });
     let datums: Option<Vec<usize>> = match section.get("datum") {
         None => Some(Vec::new()),
         Some(item) => datum_words(&item).and_then(|words| {
@@ -56,18 +65,25 @@ pub(super) fn read_characteristic(
         return None;
     };
     let limits = read_limits(&item, kind);
-    let (feature, datums) = (feature?, datums?);
-    let of = &features[feature];
-    let asked = Asked { section, features, kind, of };
-    asked.check(&datums)?;
+    let ((of, members), datums) = (feature?, datums?);
+    for member in &members {
+        let is_pattern = members.len() > 1;
+        Asked { section, features, kind, of: &features[*member], is_pattern }.check(&datums)?;
+    }
+    let of = features[members[0]]
+        .pattern
+        .as_deref()
+        .filter(|p| *p == of)
+        .unwrap_or(&features[members[0]].name);
     let name = name.unwrap_or_else(|| {
         let labels: Vec<&str> = datums.iter().map(|d| features[*d].label()).collect();
         match labels[..] {
-            [] => format!("{} of {}", kind.name(), of.name),
-            _ => format!("{} of {} to {}", kind.name(), of.name, labels.join("|")),
+            [] => format!("{} of {of}", kind.name()),
+            _ => format!("{} of {of} to {}", kind.name(), labels.join("|")),
         }
     });
-    Some(Characteristic { name, kind, feature, datums, limits: limits? })
+    let of = of.to_owned();
+    Some(Characteristic { name, kind, of, features: members, datums, limits: limits? })
 }
 
 fn material_condition(section: &Section<'_>, what: &str) {
@@ -105,7 +121,7 @@ fn datum_words(item: &Item<'_>) -> Option<Vec<String>> {
 
 /// `"20 um"`, for a size `"±20 um"` or `["-10 um", "25 um"]`.
 fn read_limits(item: &Item<'_>, kind: Kind) -> Option<Limits> {
-    if kind != Kind::Diameter {
+    if !kind.is_size() {
         return positive(item, kind.key()).map(|tolerance_mm| Limits::Zone { tolerance_mm });
     }
     let limits = match item.is_list() {
@@ -137,6 +153,8 @@ struct Asked<'a, 's> {
     features: &'a [Feature],
     kind: Kind,
     of: &'a Feature,
+    /// Whether other features have the same place to each other.
+    is_pattern: bool,
 }
 
 impl Asked<'_, '_> {
@@ -182,6 +200,9 @@ impl Asked<'_, '_> {
         if matches!(self.kind, Kind::Coaxiality | Kind::CircularRunOut | Kind::TotalRunOut) {
             return self.check_axes(&self.features[datums[0]]);
         }
+        if kind == Kind::Symmetry {
+            self.check_median(&self.features[datums[0]])?;
+        }
         let free = self.freedom(datums)?;
         if kind.is_oriented() { self.check_angle(datums, &free) } else { self.check_place(&free) }
     }
@@ -196,6 +217,7 @@ impl Asked<'_, '_> {
             Kind::Cylindricity | Kind::Diameter | Kind::CircularRunOut => is_cylinder,
             Kind::TotalRunOut => is_cylinder || is_plane,
             Kind::Profile => true,
+            Kind::Width | Kind::Symmetry => of.geometry.median().is_some(),
             Kind::Parallelism | Kind::Perpendicularity | Kind::Angularity | Kind::Position => {
                 of.geometry.direction().is_some()
             }
@@ -217,7 +239,7 @@ impl Asked<'_, '_> {
         }
         let fits = match datum.geometry {
             Geometry::Cylinder { .. } => true,
-            Geometry::Plane { .. } => !is_axis,
+            Geometry::Plane { .. } | Geometry::Slot { .. } => !is_axis,
             Geometry::Sphere { .. } => count > 1 || kind.is_located(),
             _ => false,
         };
@@ -226,7 +248,8 @@ impl Asked<'_, '_> {
         }
         let shape = datum.geometry.name();
         let message = format!("a {shape} is no datum of {}: `{}`", kind.name(), datum.name);
-        let hint = "a cylinder or a hole, for directions a plane, in a system a sphere, too";
+        let hint =
+            "a cylinder or a hole, for directions a plane or a slot, in a system a sphere, too";
         self.refuse("wrong-feature", message, hint)
     }
 
@@ -257,6 +280,27 @@ impl Asked<'_, '_> {
                 message,
                 "coaxial features only; position for others",
             );
+        }
+        Some(())
+    }
+
+    /// The nominal median plane is that of the first datum, or has its axis in it.
+    fn check_median(&self, datum: &Feature) -> Option<()> {
+        let Some(Geometry::Plane { at_mm, normal, .. }) = self.of.geometry.median() else {
+            return Some(());
+        };
+        let (name, of) = (&datum.name, &self.of.name);
+        let (turned, place) = match datum.geometry {
+            Geometry::Plane { at_mm: at, normal: other, .. }
+            | Geometry::Slot { at_mm: at, across: other, .. } => (normal.cross(&other).norm(), at),
+            _ => match datum.geometry.axis() {
+                Some((at, axis)) => (normal.dot(&axis).abs(), at),
+                None => return Some(()),
+            },
+        };
+        if turned > SAME_RAD || normal.dot(&(place - at_mm)).abs() > SAME_MM {
+            let message = format!("symmetry: the middle of `{of}` is not that of `{name}`");
+            return self.refuse("wrong-place", message, "position for features beside each other");
         }
         Some(())
     }
@@ -295,7 +339,7 @@ impl Asked<'_, '_> {
         let angle = angle.min(std::f64::consts::PI - angle);
         let right = std::f64::consts::FRAC_PI_2;
         // Between surfaces and axes: a plane lies across its normal.
-        let is_plane = |f: &Feature| matches!(f.geometry, Geometry::Plane { .. });
+        let is_plane = |f: &Feature| f.geometry.is_flat();
         let between = if is_plane(self.of) == is_plane(first) { angle } else { right - angle };
         let fits = match self.kind {
             Kind::Parallelism => between < SAME_RAD,
@@ -325,7 +369,8 @@ impl Asked<'_, '_> {
 
     /// Nothing that the datums leave free moves the zone.
     fn check_place(&self, free: &Freedom) -> Option<()> {
-        if !self.kind.is_located() {
+        // A pattern is laid where it fits best, as a whole (ISO 5458).
+        if !self.kind.is_located() || self.is_pattern && self.kind == Kind::Position {
             return Some(());
         }
         match free.moving(&held(self.of)).twists().first() {
