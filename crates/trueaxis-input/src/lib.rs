@@ -4,6 +4,7 @@
 //! - [`SourceText`], [`Section`], [`Item`]: reading of TOML; [`CsvTable`] and [`sheet`]: tables;
 //! - [`Diagnostic`]: code, place, message and hint of one problem; [`Diagnostics`]: all of them;
 //! - [`Files`], [`Source`]: access to files; [`limits`]: how much of a text is read;
+//! - [`stl`]: facets of STL files;
 //! - [`plausible`]: ranges that quantities of machine tools have.
 //!
 //! ```
@@ -44,6 +45,7 @@ pub mod plausible;
 mod quantity;
 mod section;
 pub mod sheet;
+pub mod stl;
 mod vector;
 
 pub use csv::{CsvColumn, CsvTable};

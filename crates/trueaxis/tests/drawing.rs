@@ -431,6 +431,30 @@ fn law_a_surface_of_the_program() {
     assert!(problems.iter().any(|p| p.code == "not-cut"), "{:?}", words(&problems));
 }
 
+/// The side as facets of an STL file is the side as a plane, to the spacing of its points.
+#[test]
+fn law_a_side_as_facets() {
+    let [a, b, c, d] = [[60, -35, -18], [60, 35, -18], [60, 35, -2], [60, -35, -2]];
+    let facet = |corners: [[i32; 3]; 3]| {
+        let lines = corners.map(|[x, y, z]| format!("vertex {x} {y} {z}\n")).concat();
+        format!("facet normal 0 0 0\nouter loop\n{lines}endloop\nendfacet\n")
+    };
+    let stl = format!("solid s\n{}{}endsolid s\n", facet([a, b, c]), facet([a, c, d]));
+    let part = "name = \"p\"\n[feature.side]\nmesh = { stl = \"p.stl\", facing = \"1 0 0\" }\nspacing = \"2 mm\"\n\
+        [[characteristic]]\nprofile = \"10 um\"\nof = \"side\"\n";
+    let none = predicted(&[("p.toml", part), ("p.stl", &stl)]);
+    assert!(none.features[0].points.len() > 150 && values(&none)[0] < 1e-6);
+    let machine = mill("EC0Y = \"100 urad\"");
+    let found = predicted(&[("p.toml", part), ("p.stl", &stl), ("m.toml", &machine)]);
+    let farthest =
+        found.features[0].points.iter().map(|p| p.nominal_mm.y.abs()).fold(0.0, f64::max);
+    assert!(farthest > 33.0);
+    assert!((values(&found)[0] - 2e-4 * farthest).abs() < 2e-5, "{:?} {farthest}", values(&found));
+    // In inches nothing of it is cut.
+    let inches = part.replace("facing", "unit = \"in\", facing").replace("2 mm", "60 mm");
+    refused(&[("p.toml", &inches), ("p.stl", &stl)], "not-cut");
+}
+
 /// A drill of 90° leaves a cone of 90°, a cutter whose side stands at 45° a chamfer, whatever their diameters say about a flat end.
 #[test]
 fn law_drills_and_tapers_leave_their_shapes() {

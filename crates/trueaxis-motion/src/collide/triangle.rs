@@ -1,6 +1,7 @@
 //! How far two triangles are apart.
 
 use trueaxis_geometry::Vec3;
+use trueaxis_input::stl::has_area;
 
 /// Three corners, counter-clockwise seen from outside.
 pub type Triangle = [Vec3; 3];
@@ -151,10 +152,7 @@ fn segment_gap([p, p_end]: [Vec3; 2], [q, q_end]: [Vec3; 2]) -> Gap {
 
 /// Whether a triangle has an area at all, seen against its longest edge.
 pub fn is_degenerate(t: &Triangle) -> bool {
-    let (u, v) = (t[1] - t[0], t[2] - t[0]);
-    let longest = u.norm_squared().max(v.norm_squared()).max((t[2] - t[1]).norm_squared());
-    // A height below 1e-7 of the length is what a 32-bit coordinate cannot distinguish from zero.
-    u.cross(&v).norm() <= 1e-7 * longest
+    !has_area(&t.map(<[f64; 3]>::from))
 }
 
 #[cfg(test)]

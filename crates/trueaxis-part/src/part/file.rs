@@ -1,6 +1,7 @@
 //! The part file.
 
 mod characteristics;
+mod mesh;
 mod openings;
 mod repeat;
 mod shapes;
@@ -8,6 +9,7 @@ mod shapes;
 use super::feature::MOST_POINTS;
 use super::{Characteristic, Feature, Geometry, Part};
 use characteristics::read_characteristic;
+use mesh::read_mesh;
 use openings::openings;
 use repeat::repeated;
 use shapes::{SHAPES, read_geometry, usual_spacing};
@@ -94,8 +96,14 @@ fn read_feature(section: &Section<'_>, name: &str, folder: &Path) -> Option<Feat
     let usual_mm = if kind == "programmed" { PROGRAMMED_MM } else { REACH_MM };
     let reach = ["below", "above"]
         .map(|key| section.get(key).map_or(Some(usual_mm), |item| positive(&item, key)));
-    if kind == "points" {
-        let points = item.text().and_then(|file| read_points(section, &folder.join(file)));
+    if matches!(kind, "points" | "mesh") {
+        let points = match kind {
+            "points" => item.text().and_then(|file| read_points(section, &folder.join(file))),
+            _ => {
+                let spacing_mm = spacing.map_or(Some(None), |s| s.map(Some))?;
+                item.section("mesh", |s| read_mesh(s, folder, spacing_mm)).flatten()
+            }
+        };
         let [below_mm, above_mm] = reach;
         return Some(Feature {
             name: name.to_owned(),

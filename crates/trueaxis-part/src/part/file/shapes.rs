@@ -8,7 +8,7 @@ use trueaxis_geometry::Vec3;
 use trueaxis_input::{Dimension, Section};
 
 /// Their keys.
-pub(super) const SHAPES: [&str; 13] = [
+pub(super) const SHAPES: [&str; 14] = [
     "plane",
     "cylinder",
     "hole",
@@ -21,6 +21,7 @@ pub(super) const SHAPES: [&str; 13] = [
     "slot",
     "tongue",
     "points",
+    "mesh",
     "programmed",
 ];
 
