@@ -53,6 +53,7 @@ mod error;
 mod file;
 pub mod fit;
 pub mod part;
+pub mod qif;
 pub mod testpiece;
 pub mod tolerance;
 

@@ -116,6 +116,8 @@ fn read_feature(section: &Section<'_>, name: &str, folder: &Path) -> Option<Feat
             above_mm: above_mm?,
         });
     }
+    // Asked for before a mistake of the shape ends the reading: else it would be called unknown.
+    let _ = section.get("openings");
     let geometry = item.section(kind, |s| read_geometry(s, kind)).flatten()?;
     let spacing_mm = match spacing {
         Some(spacing) => spacing?,
