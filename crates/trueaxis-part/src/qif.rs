@@ -1,7 +1,7 @@
 //! QIF product definition files (ISO 23952:2020, and 2.1) as drafts of part files.
 //!
 //! ```text
-//! QIF file ──draft──> Draft { features, characteristics, what is left out } ──text──> part file (TOML)
+//! QIF file ──draft──> Draft { features, characteristics, a list of all others } ──text──> part file (TOML)
 //!            │   │
 //!            │   └ faces of the model: the rectangle of a plane, the length of a bore
 //!            └ a value that the file does not state is written as "?"
@@ -84,8 +84,8 @@ impl Drafted {
 }
 
 impl Draft {
-    /// The part file: TOML that the reader of part files accepts once each `"?"` is replaced. What is left out follows as
-    /// comments.
+    /// The part file: TOML that the reader of part files accepts once each `"?"` is replaced. Comments at its
+    /// end name what is not in it.
     pub fn text(&self) -> String {
         Writer::write(self, Unknown::Marked).text
     }

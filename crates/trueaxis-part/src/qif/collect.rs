@@ -1,4 +1,4 @@
-//! Features and characteristics as they are found, and what is left out.
+//! Features and characteristics as they are found, and the list of all others.
 
 use super::characteristics::{self, Demand, Items};
 use super::document::{Reader, Reason, in_words, shown, text_of};
@@ -66,7 +66,7 @@ impl<'r, 'd, 't> Collected<'r, 'd, 't> {
         let demand = characteristics::read(self.units, nominal, definition)?;
         let mut of = Vec::new();
         for reference in self.items.features(self.reader, nominal)? {
-            of.extend(features::singles(self.reader, reference)?);
+            features::extend(&mut of, self.reader, reference)?;
         }
         if of.is_empty() {
             return Err(Reason::plain("it names no feature"));
@@ -121,7 +121,7 @@ impl<'r, 'd, 't> Collected<'r, 'd, 't> {
         for datum in datums::frame(self.reader, definition)? {
             let mut all = Vec::new();
             for reference in &datum.features {
-                all.extend(features::singles(self.reader, *reference)?);
+                features::extend(&mut all, self.reader, *reference)?;
             }
             let letter = shown(&datum.letter);
             let [(node, _)] = &all[..] else {
@@ -134,8 +134,10 @@ impl<'r, 'd, 't> Collected<'r, 'd, 't> {
                 ..reason
             })?;
             let feature = &mut self.features[index];
-            let is_free = feature.letter.is_none() && !datum.letter.is_empty();
-            // One with two letters, or a letter of two, is named by its name.
+            let is_sign = |c: char| c.is_alphanumeric() || "_-.".contains(c);
+            let is_letter = !datum.letter.is_empty() && datum.letter.chars().all(is_sign);
+            let is_free = feature.letter.is_none() && is_letter;
+            // One with two letters, or a letter of two or one that a part file would divide, is named by its name.
             if is_free && self.letters.insert(datum.letter.clone()) {
                 feature.letter = Some(datum.letter);
             }
@@ -223,13 +225,14 @@ impl<'r, 'd, 't> Collected<'r, 'd, 't> {
             let reason = match self.by_id.remove(&id) {
                 Some(Err(reason)) => reason,
                 Some(Ok(_)) => plain(),
-                None => features::read(self.reader, self.units, node).err().unwrap_or_else(plain),
+                None => features::unfit(node).unwrap_or_else(plain),
             };
             let what = format!("feature {}", in_words(features::stem(node)));
             let text = reason.text.clone();
             warn(self.reader, &reason, &format!("{what} {id} is left out: {text}"), problems);
             left.push(LeftOut { id, what, reason: text, place: self.reader.place(node) });
         }
+        left.sort_by(|a, b| (&a.what, &a.reason).cmp(&(&b.what, &b.reason)));
         draft.left_out.extend(left);
     }
 }

@@ -47,6 +47,9 @@ pub(super) fn frame<'d, 't>(
             return Err(Reason::plain(format!("a {} is not evaluated", in_words(kind))));
         };
         ranked.push((rank, simple_datum(reader, simple)?));
+        if ranked.len() > 3 {
+            return Err(Reason::plain("a datum reference frame of more than three datums"));
+        }
     }
     ranked.sort_by_key(|(rank, _)| *rank);
     for (due, (rank, datum)) in ranked.iter().enumerate() {

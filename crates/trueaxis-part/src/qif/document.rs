@@ -1,6 +1,7 @@
 //! The nodes of a QIF document, their places and their references.
 
 use roxmltree::{Document, Node, ParsingOptions};
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use trueaxis_geometry::Vec3;
@@ -8,6 +9,9 @@ use trueaxis_input::{Diagnostics, Place};
 
 /// A tree of more nodes than this is no drawing.
 const MOST_NODES: u32 = 20_000_000;
+
+/// Edges and points of all features together.
+const MOST_POINTS: usize = 5_000_000;
 
 /// Why something is left out.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,6 +38,8 @@ pub(super) struct Reader<'d, 't> {
     pub document: &'d Document<'t>,
     ids: BTreeMap<&'d str, Node<'d, 't>>,
     line_starts: Vec<usize>,
+    /// How many edges and points of faces may still be read.
+    budget: Cell<usize>,
 }
 
 /// The XML tree of a text.
@@ -64,7 +70,8 @@ impl<'d, 't> Reader<'d, 't> {
         let text = document.input_text();
         let line_starts =
             std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
-        let mut reader = Self { file, document, ids: BTreeMap::new(), line_starts };
+        let budget = Cell::new(MOST_POINTS);
+        let mut reader = Self { file, document, ids: BTreeMap::new(), line_starts, budget };
         let root = document.root_element();
         if root.tag_name().name() != "QIFDocument" {
             let message = format!("`{}` is no QIF document", root.tag_name().name());
@@ -84,6 +91,20 @@ impl<'d, 't> Reader<'d, 't> {
             return None;
         }
         Some(reader)
+    }
+
+    /// Counts edges or points of faces that are read for features; a face may be named again and again.
+    pub fn spend(&self, node: Node<'_, '_>, count: usize) -> Result<(), Reason> {
+        match self.budget.get().checked_sub(count) {
+            Some(rest) => {
+                self.budget.set(rest);
+                Ok(())
+            }
+            None => {
+                let message = format!("the features have more than {MOST_POINTS} edges and points");
+                Err(Reason::fault("too-large", node, message))
+            }
+        }
     }
 
     pub fn place(&self, node: Node<'_, '_>) -> Place {

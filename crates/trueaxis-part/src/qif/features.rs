@@ -53,6 +53,9 @@ pub(super) enum Opening {
     Unknown { at_mm: Vec3, note: String },
 }
 
+/// A feature and the name of the group that it was named by.
+pub(super) type Single<'d, 't> = (Node<'d, 't>, Option<String>);
+
 /// A form and what its line says about it.
 pub(super) type Read = (Form, Vec<String>);
 
@@ -71,6 +74,14 @@ pub(super) fn stem<'d>(node: Node<'d, '_>) -> &'d str {
     name(node).trim_end_matches("FeatureNominal")
 }
 
+/// Why a feature of its kind is not in a part file.
+pub(super) fn unfit(node: Node<'_, '_>) -> Option<Reason> {
+    let kind = stem(node);
+    let is_known = ["Plane", "Cylinder", "Cone", "Sphere"].contains(&kind);
+    let message = format!("a feature `{}` is no shape of a part file", in_words(kind));
+    (!is_known).then(|| Reason::plain(message))
+}
+
 /// A feature by itself.
 pub(super) fn read<'d>(
     reader: &Reader<'d, '_>,
@@ -82,10 +93,7 @@ pub(super) fn read<'d>(
         "Cylinder" => round::cylinder,
         "Cone" => round::cone,
         "Sphere" => round::sphere,
-        other => {
-            let message = format!("a feature `{}` is no shape of a part file", in_words(other));
-            return Err(Reason::plain(message));
-        }
+        _ => return Err(unfit(node).unwrap_or_else(|| Reason::plain("it is not read"))),
     };
     if child(node, "Constructed").is_some() {
         return Err(Reason::plain("it is constructed from other features"));
@@ -145,11 +153,25 @@ fn nominal<'d, 't>(
     Err(Reason::fault("bad-reference", reference, message))
 }
 
-/// The features that a reference means: itself, or those of a group or pattern, with the name of the group.
-pub(super) fn singles<'d, 't>(
+/// Adds the features that a reference means to others.
+pub(super) fn extend<'d, 't>(
+    all: &mut Vec<Single<'d, 't>>,
     reader: &Reader<'d, 't>,
     reference: Node<'d, 't>,
-) -> Result<Vec<(Node<'d, 't>, Option<String>)>, Reason> {
+) -> Result<(), Reason> {
+    all.extend(singles(reader, reference)?);
+    if all.len() <= MOST_OF_A_GROUP {
+        return Ok(());
+    }
+    let message = format!("it names more than {MOST_OF_A_GROUP} features");
+    Err(Reason::fault("too-large", reference, message))
+}
+
+/// The features that a reference means: itself, or those of a group or pattern, with the name of the group.
+fn singles<'d, 't>(
+    reader: &Reader<'d, 't>,
+    reference: Node<'d, 't>,
+) -> Result<Vec<Single<'d, 't>>, Reason> {
     let mut found = Vec::new();
     let mut groups = Vec::new();
     let mut open = vec![(reference, None)];

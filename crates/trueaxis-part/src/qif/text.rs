@@ -2,7 +2,7 @@
 
 use super::characteristics::Limits;
 use super::features::{Form, Opening};
-use super::{Asked, Draft, Drafted};
+use super::{Asked, Draft, Drafted, LeftOut};
 use trueaxis_geometry::Vec3;
 
 const HEAD: &str = "\
@@ -12,6 +12,9 @@ const HEAD: &str = "\
 const DIAMETERS: &str = "\
 # Diameters are judged as those of the least-squares cylinder (GG), not between two points.
 ";
+
+/// So many ids stand on a line.
+const MOST_ON_A_LINE: usize = 20;
 
 /// Whether unknown values are question marks, or stand-ins for a trial of the rules of the part file.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -190,8 +193,16 @@ impl Writer {
             return;
         }
         self.text += "\n# Left out:\n";
-        for left in &draft.left_out {
-            let line = format!("{} {}: {}", left.what, left.id, left.reason);
+        let mut rest = draft.left_out.iter().peekable();
+        while let Some(left) = rest.next() {
+            let mut ids = vec![left.id.as_str()];
+            // Neighbours of one kind and one reason stand on one line.
+            let is_same = |next: &&LeftOut| next.what == left.what && next.reason == left.reason;
+            while ids.len() < MOST_ON_A_LINE {
+                let Some(next) = rest.next_if(is_same) else { break };
+                ids.push(&next.id);
+            }
+            let line = format!("{} {}: {}", left.what, ids.join(", "), left.reason);
             self.text += &format!("# {}\n", comment(&line));
         }
     }

@@ -1,6 +1,6 @@
 //! Faces of the model: their edges, and the rectangles and circles that these make.
 
-use super::document::{Reader, Reason, child, elements, is_set, listed, name, numbers};
+use super::document::{Reader, Reason, child, elements, is_set, listed, name};
 use super::units::Units;
 use roxmltree::Node;
 use trueaxis_geometry::Vec3;
@@ -9,8 +9,6 @@ use trueaxis_geometry::Vec3;
 pub(super) const SAME_MM: f64 = 1e-3;
 /// Directions of a model that differ by less are the same. Unit: rad.
 const SAME_RAD: f64 = 1e-5;
-/// A face of more edges than this is not read.
-const MOST_EDGES: usize = 100_000;
 
 /// A face with its loops.
 #[derive(Debug, Clone)]
@@ -117,12 +115,8 @@ impl Loop {
         };
         for coedge in elements(list).filter(|n| name(*n) == "CoEdge") {
             let Some(oriented) = child(coedge, "EdgeOriented") else { continue };
-            let edge = Edge::read(reader, units, oriented)?;
-            edges.push(edge);
-            if edges.len() > MOST_EDGES {
-                let message = format!("a loop of more than {MOST_EDGES} edges");
-                return Err(Reason::fault("too-large", node, message));
-            }
+            reader.spend(node, 1)?;
+            edges.push(Edge::read(reader, units, oriented)?);
         }
         Ok(Self { id: node.attribute("id").unwrap_or_default().to_owned(), edges })
     }
@@ -171,7 +165,7 @@ impl Edge {
         };
         let (mut from_mm, mut to_mm) = (end("VertexBeg")?, end("VertexEnd")?);
         let curve = match reader.follow(edge, "Curve", "")? {
-            Some(curve) => Curve::read(units, curve, [from_mm, to_mm])?,
+            Some(curve) => Curve::read(reader, units, curve, [from_mm, to_mm])?,
             None => Curve::Other,
         };
         if is_set(oriented, "turned") {
@@ -182,7 +176,12 @@ impl Edge {
 }
 
 impl Curve {
-    fn read(units: &Units, node: Node<'_, '_>, ends: [Vec3; 2]) -> Result<Self, Reason> {
+    fn read(
+        reader: &Reader<'_, '_>,
+        units: &Units,
+        node: Node<'_, '_>,
+        ends: [Vec3; 2],
+    ) -> Result<Self, Reason> {
         let Some(core) = elements(node).find(|n| name(*n).ends_with("Core")) else {
             return Ok(Self::Other);
         };
@@ -199,10 +198,12 @@ impl Curve {
                 }
             }
             // A spline lies within its control points: where they are on a line, it is straight.
-            "Nurbs13Core" => match child(core, "CPs").filter(|n| numbers(*n).is_ok()) {
-                Some(points) if on_a_line(&units.points(points)?, ends) => Self::Straight,
-                _ => Self::Other,
-            },
+            "Nurbs13Core" => {
+                let Some(node) = child(core, "CPs") else { return Ok(Self::Other) };
+                let points = units.points(node)?;
+                reader.spend(node, points.len())?;
+                if on_a_line(&points, ends) { Self::Straight } else { Self::Other }
+            }
             _ => Self::Other,
         })
     }

@@ -118,7 +118,7 @@ pub(in super::super) fn cone<'d>(
     Ok((Form::Cone { is_hole, at_mm, axis, diameters_mm, length_mm }, notes))
 }
 
-/// `SphereFeatureNominal`: of its sweep only a cap about the pole is a part of a sphere as a part file has it.
+/// `SphereFeatureNominal`: of its sweep only a cap about the pole is the shape that a part file has.
 pub(in super::super) fn sphere<'d>(
     _: &Reader<'d, '_>,
     units: &Units,
