@@ -58,7 +58,7 @@ fn a_complete_draft_is_read_and_judged() {
     for line in [
         "plane = { at = \"40 30 20 mm\", normal = \"0 0 1\", along = \"1 0 0\", size = \"80 60 mm\" }",
         "    { at = \"40 30 20 mm\", diameter = \"30 mm\" },",
-        "    { at = \"40 30 0 mm\", size = \"20 20 mm\" },",
+        "    { at = \"40 30 0 mm\", size = \"10 20 mm\" },",
         "hole = { at = \"40 30 15 mm\", axis = \"0 0 -1\", diameter = \"20 mm\", length = \"15 mm\" }",
         "plane = { at = \"40 8 6 mm\", normal = \"0 -0.6 0.8\", along = \"1 0 0\", size = \"40 20 mm\" }",
         "diameter = [\"-10 um\", \"25 um\"]",
@@ -436,6 +436,55 @@ fn law_no_change_of_a_file_is_a_panic() {
     }
 }
 
+/// The face of the model that a feature names.
+fn face_of<'t>(text: &'t str, feature: &str) -> &'t str {
+    let start = text.find(&format!("Nominal id=\"{feature}\"")).expect("a feature");
+    let rest = text[start..].split_once("<EntityInternalIds n=\"1\"><Id>").expect("a face").1;
+    rest.split_once('<').expect("an end").0
+}
+
+#[test]
+fn a_bore_begins_where_its_faces_do() {
+    let plain = drafted(&in_mm()).0.text();
+    // The axis begins above the plate.
+    let (above, _) = changed("<AxisPoint>40 30 20<", "<AxisPoint>40 30 22<");
+    assert_eq!(above.text(), plain);
+    // The face around its end belongs to it in some exports.
+    let text = in_mm();
+    let own = format!("<EntityInternalIds n=\"1\"><Id>{}</Id>", face_of(&text, "15"));
+    let both = format!("{own}<Id>{}</Id>", face_of(&text, "14"));
+    assert_eq!(drafted(&text.replace(&own, &both)).0.text(), plain);
+    // A length that the feature states otherwise.
+    let stated = "<Diameter>20</Diameter><Length>12</Length>";
+    let (draft, _) = changed("<Diameter>20</Diameter>", stated);
+    assert!(draft.text().contains("# length by its faces; the feature states 12 mm"));
+}
+
+#[test]
+fn a_face_elsewhere_or_from_the_other_side_is_not_believed() {
+    let (draft, _) = changed("<Location>1 2 0<", "<Location>1 2 5<");
+    let text = draft.text();
+    let line = text.lines().find(|l| l.contains("\"?\"")).expect("a mark");
+    assert!(line.contains("at = \"1 2 5 mm\"") && line.contains("outside of its plane"), "{line}");
+    // DirU x DirV points down; the face that is turned is out of the material upwards, as its feature says.
+    let text = in_mm();
+    let face = format!("<Face id=\"{}\"", face_of(&text, "11"));
+    let surface = "<SurfaceSet><Plane23 id=\"9001\"><Plane23Core><DirU>1 0 0</DirU><DirV>0 -1 0</DirV></Plane23Core></Plane23></SurfaceSet></GeometrySet>";
+    let of = |turned: &str| {
+        let with = text.replace(
+            &format!("{face}>"),
+            &format!("{face} turned=\"{turned}\"><Surface><Id>9001</Id></Surface>"),
+        );
+        drafted(&with.replace("</GeometrySet>", surface)).0
+    };
+    assert_eq!((of("true").unknown(), of("true").text()), (0, drafted(&text).0.text()));
+    let marked = of("false").text();
+    assert!(
+        marked.contains("normal = \"?\"") && marked.contains("the feature has 0 0 1"),
+        "{marked}"
+    );
+}
+
 #[test]
 fn cones_and_spheres_by_hand() {
     // A countersink of 90° around the point where it is 20 mm wide: 2 mm on it is 24 mm wide.
@@ -448,11 +497,12 @@ fn cones_and_spheres_by_hand() {
         <DomainLongitude>0 6.283185307179586</DomainLongitude></LatitudeLongitudeSweep></SphereFeatureNominal>";
     let of = "<CharacteristicDefinitionId>2108</CharacteristicDefinitionId><FeatureNominalIds n=\"1\"><Id>15<";
     let profile = "<CharacteristicDefinitionId>2106</CharacteristicDefinitionId><FeatureNominalIds n=\"1\"><Id>17<";
+    let profile_of_sphere = &*profile.replace(">17<", ">22<");
     let text = in_mm()
         .replace("<FeatureDefinitions>", &format!("<FeatureDefinitions>{cone}{sphere}"))
         .replace("<FeatureNominals>", nominals)
         .replace(of, &of.replace(">15<", ">21<"))
-        .replace(profile, &profile.replace(">17<", ">22<"));
+        .replace(profile, profile_of_sphere);
     let (draft, _) = drafted(&text);
     let part = part(&draft.text());
     let named = |name: &str| {
@@ -467,4 +517,24 @@ fn cones_and_spheres_by_hand() {
         panic!("no sphere");
     };
     assert!((opening_rad.to_degrees() - 60.0).abs() < 1e-6 && (radius_mm - 4.0).abs() < 1e-9);
+    // Without a small end it is pointed, 10 mm below the point; from the other pole the cap has 120°.
+    let pointed = text.replace("<SmallEndDistance>-1</SmallEndDistance>", "");
+    let pointed = drafted(&pointed).0.text();
+    assert!(pointed.contains("at = \"1 2 -7 mm\"") && pointed.contains("\"0 24 mm\""), "{pointed}");
+    let below = "<DomainLatitude>-1.5707963267948966 0.5235987755982988<";
+    let below = text.replace("<DomainLatitude>0.5235987755982988 1.5707963267948966<", below);
+    let below = drafted(&below).0.text();
+    assert!(
+        below.contains("axis = \"0 0 -1\", diameter = \"8 mm\", opening = \"120 deg\""),
+        "{below}"
+    );
+    // What the reader of part files refuses takes its feature with it, and nothing else.
+    let flat = "<CharacteristicDefinitionId>2101</CharacteristicDefinitionId><FeatureNominalIds n=\"1\"><Id>11<";
+    let flat =
+        text.replace(profile_of_sphere, profile).replace(flat, &flat.replace(">11<", ">22<"));
+    let (found, _) = drafted(&flat);
+    assert!(is_left_out(&found, "101", "flatness is not asked of a sphere"));
+    assert_eq!((found.features(), found.characteristics()), (8, 13));
+    assert!(found.text().contains("parallelism = \"20 um\"\nof = \"face_14\"\ndatum = \"A\""));
+    assert!(found.text().contains("position = \"20 um\"\nof = \"bore_15\"\ndatum = \"A|B|C\""));
 }

@@ -322,3 +322,35 @@ impl<'d, 't> Items<'d, 't> {
         self.by_nominal.get(nominal.attribute("id")?.trim()).copied()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trueaxis_geometry::Vec3;
+
+    /// By ISO 1101 an axis stands in a cylinder on a plane and along an axis; between planes it lies along a plane and across an axis.
+    #[test]
+    fn the_zone_of_an_axis_follows_its_datum() {
+        let at_mm = Vec3::zeros();
+        let (axis, diameter_mm, length_mm) = (Vec3::z(), Some(10.0), Some(10.0));
+        let bore = Form::Cylinder { is_hole: true, at_mm, axis, diameter_mm, length_mm };
+        let normal = Some(Vec3::z());
+        let plane = Form::Plane { at_mm, normal, along: None, size_mm: None, openings: Vec::new() };
+        let is_read = |kind: Kind, zone: Zone, datums: &[&Form]| {
+            let limits = Limits::Zone { tolerance_mm: 0.01 };
+            Demand { kind, zone: Some(zone), limits }.check(&bore, datums).is_ok()
+        };
+        for (kind, datums, due) in [
+            (Kind::Perpendicularity, &[&plane][..], Zone::Diameter),
+            (Kind::Parallelism, &[&bore][..], Zone::Diameter),
+            (Kind::Parallelism, &[&plane][..], Zone::Width),
+            (Kind::Perpendicularity, &[&bore][..], Zone::Width),
+            (Kind::Parallelism, &[&plane, &bore][..], Zone::Diameter),
+            (Kind::Angularity, &[&plane][..], Zone::Diameter),
+        ] {
+            for zone in [Zone::Diameter, Zone::Width, Zone::Sphere] {
+                assert_eq!(is_read(kind, zone, datums), zone == due, "{kind:?} {zone:?}");
+            }
+        }
+    }
+}

@@ -288,10 +288,10 @@ pub fn plate(unit: Unit) -> Element {
     let hole = model.closed(&[(circle, false)], "INNER");
     let top = model.face(&[&top, &hole]);
     let bottom = model.polygon(&around(0.0), "OUTER");
-    let corners = [[30.0, 20.0], [50.0, 20.0], [50.0, 40.0], [30.0, 40.0]].map(|p| at(p, 0.0));
+    let corners = [[35.0, 20.0], [45.0, 20.0], [45.0, 40.0], [35.0, 40.0]].map(|p| at(p, 0.0));
     let window = model.polygon(&corners, "INNER");
     let bottom = model.face(&[&bottom, &window]);
-    let front = model.polygon(&[at(a, 0.0), at(b, 0.0), at(b, 20.0), at(a, 20.0)], "UNKNOWN");
+    let front = model.polygon(&[at(b, 0.0), at(b, 20.0), at(a, 20.0), at(a, 0.0)], "UNKNOWN");
     let front = model.face(&[&front]);
     let left = model.polygon(&[at(d, 0.0), at(a, 0.0), at(a, 20.0), at(d, 20.0)], "OUTER");
     let left = model.face(&[&left]);
