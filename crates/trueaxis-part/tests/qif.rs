@@ -449,10 +449,10 @@ fn a_bore_begins_where_its_faces_do() {
     // The axis begins above the plate.
     let (above, _) = changed("<AxisPoint>40 30 20<", "<AxisPoint>40 30 22<");
     assert_eq!(above.text(), plain);
-    // The face around its end belongs to it in some exports.
+    // A face around its end belongs to it in some exports.
     let text = in_mm();
     let own = format!("<EntityInternalIds n=\"1\"><Id>{}</Id>", face_of(&text, "15"));
-    let both = format!("{own}<Id>{}</Id>", face_of(&text, "14"));
+    let both = format!("{own}<Id>{}</Id>", face_of(&text, "11"));
     assert_eq!(drafted(&text.replace(&own, &both)).0.text(), plain);
     // A length that the feature states otherwise.
     let stated = "<Diameter>20</Diameter><Length>12</Length>";
