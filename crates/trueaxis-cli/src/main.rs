@@ -14,6 +14,7 @@ mod identify;
 mod live;
 mod measure;
 mod output;
+mod part;
 mod plan;
 mod pose;
 mod post;
@@ -40,6 +41,7 @@ Examples:
   trueaxis check machines/xkas2525/machine.toml
   trueaxis pose machines/xkas2525/machine.toml --at \"X=3000 Y=1200 Z=-700 C=-90 A=15\"
   trueaxis solve machines/i5-engraver/machine.toml --tip \"10 20 30\" --axis \"0.3 -0.2 0.93\"
+  trueaxis part parts/housing.toml
   trueaxis simulate machines/i5-engraver/machine.toml examples/02_simulate/ring-fanuc.nc
   trueaxis predict examples/03_predict/nas979-on-xkas2525.toml
   trueaxis evaluate iso230-2 examples/07_verify/x-axis-laser.csv --report x.html
@@ -73,6 +75,8 @@ enum Verb {
     Check(check::Arguments),
     /// Describe: nominal and actual pose of the tool, and the contribution of every error
     Pose(pose::Arguments),
+    /// Describe: what a part file asks for, or a draft of one from a QIF file
+    Part(part::Arguments),
     /// Describe: axis positions for a required position and direction of the tool
     Solve(solve::Arguments),
     /// Simulate: run an NC program on the actual machine: time, travel, deviations, issues
@@ -127,6 +131,7 @@ fn main() -> ExitCode {
     };
     let outcome = match verb {
         Verb::Check(arguments) => check::run(&arguments),
+        Verb::Part(arguments) => part::run(&arguments),
         Verb::Pose(arguments) => pose::run(arguments),
         Verb::Solve(arguments) => solve::run(arguments),
         Verb::Simulate(arguments) => simulate::run(arguments),

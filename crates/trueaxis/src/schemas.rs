@@ -1,7 +1,9 @@
 //! The JSON documents of the program with their JSON Schemas.
 
 use crate::explain::{ExplainDocument, ExplainListDocument};
-use crate::questions::{ProbeProgramsDocument, RtcpProgramsDocument, VirtualPartDocument};
+use crate::questions::{
+    PartFileDocument, ProbeProgramsDocument, RtcpProgramsDocument, VirtualPartDocument,
+};
 use crate::report::{
     BeforeAfterDocument, CertificateDocument, CheckDocument, DescriptionDocument, DiagnosticEntry,
     DiffDocument, ExpansionDocument, ExpansionsDocument, PoseDocument, PoseRowsDocument,
@@ -34,6 +36,7 @@ pub fn schemas() -> Vec<NamedSchema> {
         named_schema::<TablesFoundDocument<'_>>("identify-tables"),
         named_schema::<ProbeProgramsDocument<'_>>("identify-probe-programs"),
         named_schema::<RtcpProgramsDocument<'_>>("identify-rtcp-programs"),
+        named_schema::<PartFileDocument<'_>>("part"),
         named_schema::<PoseDocument>("pose"),
         named_schema::<PoseRowsDocument>("pose-rows"),
         named_schema::<PostDocument<'_>>("post"),
