@@ -6,6 +6,7 @@ mod drawing_pictures;
 mod holes;
 mod holes_document;
 mod holes_pictures;
+mod part_file;
 mod prediction;
 mod prediction_document;
 mod prediction_pictures;
@@ -14,6 +15,7 @@ pub use drawing::drawing_report;
 pub use drawing_document::DrawingDocument;
 pub use holes::holes_report;
 pub use holes_document::HolesDocument;
+pub use part_file::{PartFileDocument, draft_report, part_report};
 pub use prediction::prediction_report;
 pub use prediction_document::PredictionDocument;
 

@@ -60,7 +60,7 @@ pub use job::ProgramChoice;
 pub use machine::MachineChoice;
 pub use measure::{Measure, MeasureAnswer};
 pub use part::{MeasurePart, PartAnswer, VerifyPart, VirtualPartAnswer, VirtualPartDocument};
-pub use part_file::{AskPart, PartFileAnswer, PartFileDocument};
+pub use part_file::{AskPart, PartFileAnswer};
 pub use plan::{PlanAnswer, PlanMeasurement};
 pub use pose::{AskPose, PoseAnswer, PoseFound, PoseInput, Positions};
 pub use post::{Post, PostAnswer, template};

@@ -1,14 +1,12 @@
 //! The JSON documents of the program with their JSON Schemas.
 
 use crate::explain::{ExplainDocument, ExplainListDocument};
-use crate::questions::{
-    PartFileDocument, ProbeProgramsDocument, RtcpProgramsDocument, VirtualPartDocument,
-};
+use crate::questions::{ProbeProgramsDocument, RtcpProgramsDocument, VirtualPartDocument};
 use crate::report::{
     BeforeAfterDocument, CertificateDocument, CheckDocument, DescriptionDocument, DiagnosticEntry,
-    DiffDocument, ExpansionDocument, ExpansionsDocument, PoseDocument, PoseRowsDocument,
-    PostDocument, RefusedDocument, SolveDocument, SolvePathDocument, TablesFoundDocument,
-    TraceDocument, VerifyDocument, VerifyPartDocument,
+    DiffDocument, ExpansionDocument, ExpansionsDocument, PartFileDocument, PoseDocument,
+    PoseRowsDocument, PostDocument, RefusedDocument, SolveDocument, SolvePathDocument,
+    TablesFoundDocument, TraceDocument, VerifyDocument, VerifyPartDocument,
 };
 use schemars::{JsonSchema, Schema, generate::SchemaSettings, json_schema};
 use serde_json::Value;

@@ -3,16 +3,16 @@
 //! A plate with 16 bores and four planes, 24 characteristics, on a mill with 20 uncertain errors: 10^4 machines in at most 10 s on two
 //! cores.
 //!
-//! `cargo bench -p trueaxis --bench many_parts`
+//! `cargo bench -p trueaxis-predict --bench many_parts`
 
 #![allow(clippy::print_stdout)] // a bench prints its figures
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use trueaxis::input::{Diagnostics, Files};
-use trueaxis::predict::Sampling;
-use trueaxis::predict::drawing::{PartStudy, predict_part, read_part_study};
+use trueaxis_input::{Diagnostics, Files};
+use trueaxis_predict::predict::Sampling;
+use trueaxis_predict::predict::drawing::{PartStudy, predict_part, read_part_study};
 
 const SAMPLES: usize = 10_000;
 const LIMIT_S: f64 = 10.0;
