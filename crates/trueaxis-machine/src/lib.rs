@@ -34,6 +34,7 @@ mod active;
 /// Axes: side of the chain, direction, sense, travel and limits.
 pub mod axis;
 pub mod batch;
+pub mod calibrations;
 pub mod chain;
 pub mod compensate;
 pub mod describe;

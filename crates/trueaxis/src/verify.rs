@@ -9,11 +9,11 @@
 //! [`before_after`](mod@before_after) what a laser reads on a virtual machine before and after.
 
 pub mod before_after;
-pub mod calibrations;
 pub mod certificate;
 pub mod compare;
 pub mod error_tables;
 pub mod part;
 pub mod write_back;
 
+pub use trueaxis_machine::calibrations;
 pub use trueaxis_standards::*;

@@ -11,10 +11,10 @@ mod tip;
 
 pub use tip::{Share, TipChange};
 
+use crate::Machine;
+use crate::axis::Travel;
+use crate::errors::{Component, ErrorKind, ErrorName, StatedError};
 use trueaxis_geometry::statistics::normal_quantile_above;
-use trueaxis_machine::Machine;
-use trueaxis_machine::axis::Travel;
-use trueaxis_machine::errors::{Component, ErrorKind, ErrorName, StatedError};
 
 /// Places along an axis that curves are compared at.
 const PLACES: usize = 101;
@@ -112,8 +112,8 @@ impl Calibrations {
 ///
 /// # Example
 /// ```
-/// use trueaxis::machine::{Machine, file::NoTables};
-/// use trueaxis::verify::calibrations::{Significance, calibrations};
+/// use trueaxis_machine::{Machine, file::NoTables};
+/// use trueaxis_machine::calibrations::{Significance, calibrations};
 /// let mill = |squareness: &str| {
 ///     let text = format!("[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n\
 ///                         [location]\nEC0Y = \"{squareness}\"");
@@ -220,7 +220,7 @@ fn compared(
 
 /// The positions at which an error is compared.
 fn places(error: &StatedError, travel: Option<Travel>) -> Vec<f64> {
-    use trueaxis_machine::errors::Curve;
+    use crate::errors::Curve;
     let (from, to) = match (travel, &error.mean) {
         (None, _) => return vec![0.0],
         (Some(Travel::Between(from, to)), _) => (from, to),
@@ -233,10 +233,10 @@ fn places(error: &StatedError, travel: Option<Travel>) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::file::NoTables;
     use rand_chacha::ChaCha8Rng;
     use rand_chacha::rand_core::SeedableRng;
     use rand_distr::{Distribution, StandardNormal};
-    use trueaxis_machine::file::NoTables;
 
     fn mill(rest: &str) -> Machine {
         let text = format!(

@@ -1,18 +1,30 @@
 //! Parts of any shape, cut virtually by their programs: by hand figures, by the machine changed, and whatever should not matter.
 
-mod library;
-
-use library::root;
 use std::path::{Path, PathBuf};
-use trueaxis::files::disk;
-use trueaxis::input::{Diagnostics, Files};
-use trueaxis::predict::drawing::{
+use trueaxis_input::{Diagnostics, Files, Source};
+use trueaxis_predict::predict::drawing::{
     PartPrediction, PartStudy, cut_with, predict_part, read_part_study,
 };
 
 const STUDY: &str = "name = \"s\"\nmachine = \"m.toml\"\npart = \"p.toml\"\nprogram = \"p.nc\"\n";
 const SET_UP: &str = "control = \"fanuc\"\nworkpiece_at = \"G54\"\n[work_offset.G54]\nX = \"300 mm\"\nY = \"200 mm\"\nZ = \"-300 mm\"\n\
     [tool.1]\nname = \"end mill 12\"\nlength = \"90 mm\"\ndiameter = \"12 mm\"\n";
+
+struct Disk;
+
+impl Source for Disk {
+    fn read(&self, path: &Path) -> std::io::Result<Vec<u8>> {
+        std::fs::read(path)
+    }
+
+    fn is_file(&self, path: &Path) -> bool {
+        path.is_file()
+    }
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
 
 /// A mill with these errors.
 fn mill(errors: &str) -> String {
@@ -162,7 +174,7 @@ fn law_many_machines_by_hand() {
 
 /// Machines drawn by the run are cut again, the same ones: mean and spread agree.
 fn as_cut_anew(study: &mut PartStudy, samples: usize, within_mm: f64) {
-    use trueaxis::predict::{Sampling, draw};
+    use trueaxis_predict::predict::{Sampling, draw};
     study.sampling = Some(Sampling { samples, seed: 5 });
     let mut problems = Diagnostics::new();
     let found = predict_part(study, &|_| {}, &mut problems).expect("a prediction");
@@ -202,7 +214,7 @@ fn law_many_machines_are_as_cut_anew() {
 #[ignore = "200 cuts of the housing: scripts/long-laws"]
 fn law_many_housings_are_as_cut_anew() {
     let path = root().join("examples/03_predict/housing.toml");
-    let (study, problems) = read_part_study(&disk(), &path);
+    let (study, problems) = read_part_study(&Files::new(Disk), &path);
     let mut study = study.unwrap_or_else(|| panic!("{:?}", words(&problems)));
     as_cut_anew(&mut study, 200, 2e-5);
 }
@@ -339,7 +351,7 @@ fn studies_that_ask_for_more_are_refused() {
 
 fn shipped(name: &str) -> (PartStudy, PartPrediction) {
     let path = root().join("examples/03_predict").join(name);
-    let (study, problems) = read_part_study(&disk(), &path);
+    let (study, problems) = read_part_study(&Files::new(Disk), &path);
     let study = study.unwrap_or_else(|| panic!("{:?}", words(&problems)));
     let mut problems = Diagnostics::new();
     let found = predict_part(&study, &|_| {}, &mut problems).expect("a prediction");
@@ -393,7 +405,7 @@ fn law_blocks_are_named_with_tools_by_turns() {
 /// ISO 14253-1: a value within U of its limit is neither, above it by more it fails, below it by more it passes.
 #[test]
 fn law_the_guard_band_has_two_sides() {
-    use trueaxis::part::tolerance::Outcome;
+    use trueaxis_part::tolerance::Outcome;
     // 6.5 ± 0.65 µm, U = 1.3 µm.
     let machine = mill("EC0Y = \"100 ± 10 urad\"");
     let study = STUDY.to_owned() + "[decision]\nrule = \"ISO 14253-1\"\n";

@@ -1,10 +1,10 @@
 //! The effect of a change of errors on the tool over the travel of all axes.
 
+use crate::Machine;
+use crate::axis::Command;
+use crate::errors::{ErrorIndex, ErrorName};
+use crate::volume::commands;
 use trueaxis_geometry::Vec3;
-use trueaxis_machine::Machine;
-use trueaxis_machine::axis::Command;
-use trueaxis_machine::errors::{ErrorIndex, ErrorName};
-use trueaxis_machine::volume::commands;
 
 /// Poses over the travel of all axes.
 const POSES: u32 = 4096;
@@ -118,7 +118,7 @@ fn uncertainty(old: &Machine, new: &Machine, at: &Command) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trueaxis_machine::file::NoTables;
+    use crate::file::NoTables;
 
     /// Errors that stay are no change; the tip of an axis that is 10 µrad squarer lies 8 µm elsewhere at Y = 800 mm.
     #[test]
