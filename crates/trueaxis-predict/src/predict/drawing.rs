@@ -21,7 +21,7 @@ pub use path::{CutPath, Origin};
 pub use study::{PartStudy, is_part_study, read_part_study};
 
 use super::study::{Decision, errors_without_u};
-use trueaxis_cut::{Cut, Nail, Reach, cut};
+use trueaxis_cut::{Cut, Nail, Reach, Sweep, cut};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::surface::SurfacePoint;
 use trueaxis_input::{Diagnostics, Place};
@@ -127,9 +127,10 @@ pub fn predict_part(
             return None;
         }
     };
-    let part = programmed::completed(study, &nominal, problems)?;
+    let (part, known) = programmed::completed(study, &nominal, problems)?;
     let nails = nails(&part);
-    let [actual, nominal] = [actual, nominal].map(|sweeps| cut(&sweeps, &nails));
+    let actual = cut(&actual, &nails);
+    let nominal = nominal_cut(&part, &nominal, known);
     let found = reached(study, &part, &actual, problems)?;
     let by_program = reached(study, &part, &nominal, problems)?;
     let by_program: Vec<f64> = by_program.iter().map(|c| c.deviation_mm).collect();
@@ -177,19 +178,27 @@ pub fn predict_part(
     })
 }
 
+/// What the nominal cut leaves of the nails of each feature, as far as that is not known.
+fn nominal_cut(part: &part::Part, nominal: &[Sweep], known: Vec<Option<Vec<Reach>>>) -> Vec<Reach> {
+    let unknown = part.features.iter().zip(&known).filter(|(_, known)| known.is_none());
+    let nails: Vec<Nail> = unknown.flat_map(|(feature, _)| nails_of(feature)).collect();
+    let mut rest = cut(nominal, &nails).into_iter();
+    let of = |(feature, known): (&part::Feature, Option<Vec<Reach>>)| {
+        known.unwrap_or_else(|| rest.by_ref().take(feature.points.len()).collect())
+    };
+    part.features.iter().zip(known).flat_map(of).collect()
+}
+
 /// A nail on each point.
 fn nails(part: &part::Part) -> Vec<Nail> {
-    let of = |feature: &part::Feature| {
-        let (below_mm, above_mm) = (feature.below_mm, feature.above_mm);
-        let nail = move |p: &SurfacePoint| Nail {
-            foot_mm: p.point_mm,
-            normal: p.normal,
-            below_mm,
-            above_mm,
-        };
-        feature.points.iter().map(nail).collect::<Vec<_>>()
-    };
-    part.features.iter().flat_map(of).collect()
+    part.features.iter().flat_map(nails_of).collect()
+}
+
+fn nails_of(feature: &part::Feature) -> Vec<Nail> {
+    let (below_mm, above_mm) = (feature.below_mm, feature.above_mm);
+    let nail =
+        |p: &SurfacePoint| Nail { foot_mm: p.point_mm, normal: p.normal, below_mm, above_mm };
+    feature.points.iter().map(nail).collect()
 }
 
 /// The cuts, if every point was cut within its nail.

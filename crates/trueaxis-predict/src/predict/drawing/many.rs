@@ -97,7 +97,7 @@ pub fn cut_with(study: &PartStudy, factors: &[f64]) -> Result<Vec<f64>, String> 
     let (actual, nominal) = path.sweeps()?;
     let mut problems = Diagnostics::new();
     let part = super::programmed::completed(study, &nominal, &mut problems);
-    let part = part.ok_or("a surface of the program without points")?;
+    let (part, _) = part.ok_or("a surface of the program without points")?;
     let cuts = super::reached(study, &part, &cut(&actual, &nails(&part)), &mut problems);
     let cuts = cuts.ok_or("points that are not cut, or cut away")?;
     let deviations: Vec<f64> = cuts.iter().map(|c| c.deviation_mm).collect();

@@ -1,6 +1,6 @@
 //! Surfaces that the drawing leaves to the program: their points lie where the nominal cut ends.
 
-use super::PartStudy;
+use super::{PartStudy, nails_of};
 use trueaxis_cut::{Cut, Nail, Reach, Sweep, cut};
 use trueaxis_geometry::surface::SurfacePoint;
 use trueaxis_input::{Diagnostics, Place};
@@ -11,7 +11,8 @@ const FLATTEST_COS: f64 = 0.1;
 /// A point is on the surface if the nail along its normal ends there, too; at the crest of a cusp another track ends it. Unit: mm.
 const SAME_MM: f64 = 1e-5;
 
-/// The part with the points of its programmed surfaces.
+/// The part with the points of its programmed surfaces, and for each feature, where that was found on the way, what the nominal cut leaves
+/// of its nails.
 ///
 /// # Errors
 /// A surface without points.
@@ -19,10 +20,11 @@ pub(super) fn completed(
     study: &PartStudy,
     nominal: &[Sweep],
     problems: &mut Diagnostics,
-) -> Option<Part> {
+) -> Option<(Part, Vec<Option<Vec<Reach>>>)> {
     let mut part = study.part.clone();
+    let mut known = vec![None; part.features.len()];
     let mut sound = true;
-    for feature in &mut part.features {
+    for (feature, known) in part.features.iter_mut().zip(&mut known) {
         let Geometry::Programmed { normal, depth_mm, .. } = feature.geometry else { continue };
         let seen = feature.points.len();
         let nail = |p: &SurfacePoint| Nail {
@@ -38,7 +40,7 @@ pub(super) fn completed(
             Reach::Deeper(_) | Reach::NotCut => None,
         });
         feature.points = points.collect();
-        keep_smooth(feature, nominal);
+        *known = Some(keep_smooth(feature, nominal));
         let (count, name) = (feature.points.len(), &feature.name);
         let place = Place::whole(&study.part_file);
         if count == 0 {
@@ -56,7 +58,7 @@ pub(super) fn completed(
             problems.note("points-left-out", place, message, hint);
         }
     }
-    sound.then_some(part)
+    sound.then_some((part, known))
 }
 
 fn surface_point(nail: &Nail, cut: &Cut) -> Option<SurfacePoint> {
@@ -66,14 +68,12 @@ fn surface_point(nail: &Nail, cut: &Cut) -> Option<SurfacePoint> {
     is_seen.then_some(SurfacePoint { point_mm, normal, axis: normal, line: 0 })
 }
 
-/// Without the points where the nail along the normal ends elsewhere.
-fn keep_smooth(feature: &mut Feature, nominal: &[Sweep]) {
-    let (below_mm, above_mm) = (feature.below_mm, feature.above_mm);
-    let nail =
-        |p: &SurfacePoint| Nail { foot_mm: p.point_mm, normal: p.normal, below_mm, above_mm };
-    let nails: Vec<Nail> = feature.points.iter().map(nail).collect();
-    let mut ends = cut(nominal, &nails).into_iter();
-    feature.points.retain(
-        |_| matches!(ends.next(), Some(Reach::Cut(cut)) if cut.deviation_mm.abs() < SAME_MM),
-    );
+/// Without the points where the nail along the normal ends elsewhere; what is left of the nails of the others.
+fn keep_smooth(feature: &mut Feature, nominal: &[Sweep]) -> Vec<Reach> {
+    let ends = cut(nominal, &nails_of(feature));
+    let is_smooth =
+        |reach: &Reach| matches!(reach, Reach::Cut(cut) if cut.deviation_mm.abs() < SAME_MM);
+    let mut each = ends.iter();
+    feature.points.retain(|_| each.next().is_some_and(is_smooth));
+    ends.into_iter().filter(is_smooth).collect()
 }
