@@ -13,6 +13,7 @@ mod pattern;
 mod values;
 
 pub use characteristic::{Characteristic, Kind, Limits};
+pub(crate) use feature::across;
 pub use feature::{Feature, Geometry};
 
 /// A checked part file.

@@ -7,6 +7,8 @@
 //!            └ a value that the file does not state is written as "?"
 //! ```
 //!
+//! [`results`] writes QIF files: a part with what was found of it.
+//!
 //! Nothing is weakened: what a drawing asks beyond what a part file can say is left out by name.
 
 mod characteristics;
@@ -14,6 +16,7 @@ mod collect;
 mod datums;
 mod document;
 mod features;
+pub mod results;
 mod text;
 mod topology;
 mod trial;

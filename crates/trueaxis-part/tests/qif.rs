@@ -184,6 +184,19 @@ fn limits_of_a_size_count_from_the_diameter_of_the_feature() {
     assert!(is_left_out(&draft, "114", "it has one limit only"));
 }
 
+/// A size that is asked by least squares is the one that is evaluated; between two points it is another one.
+#[test]
+fn a_size_is_drafted_by_least_squares_only() {
+    let with = |modifier: &str| {
+        let size = "<Tolerance>";
+        let asked = format!("<DeterminationModifier>{modifier}</DeterminationModifier>");
+        let to = format!("<DimensionModifiers>{asked}</DimensionModifiers>{size}");
+        changed(size, &to).0
+    };
+    assert_eq!(with("GG").text(), drafted(&in_mm()).0.text());
+    assert!(is_left_out(&with("LP"), "114", "its size is asked with LP, not GG"));
+}
+
 /// Nothing that a drawing asks beyond the part file is read as less.
 #[test]
 fn each_thing_that_is_left_out_is_named() {

@@ -255,7 +255,7 @@ impl Geometry {
 }
 
 /// Two directions across an axis, at right angles to each other.
-pub(super) fn across(axis: &Vec3) -> [Vec3; 2] {
+pub(crate) fn across(axis: &Vec3) -> [Vec3; 2] {
     let any = if axis.x.abs() < 0.9 { Vec3::x() } else { Vec3::y() };
     let x = (any - axis * axis.dot(&any)).normalize();
     [x, axis.cross(&x)]

@@ -2,7 +2,9 @@
 //! leave it out: a drawing is never read as less than it asks.
 
 use super::datums::{material, only};
-use super::document::{Reader, Reason, child, elements, in_words, listed, name, shown, text_of};
+use super::document::{
+    Reader, Reason, child, content, elements, in_words, listed, name, shown, text_of,
+};
 use super::features::Form;
 use super::text::millimetres;
 use super::units::{In, Units};
@@ -11,7 +13,7 @@ use roxmltree::Node;
 use std::collections::BTreeMap;
 
 /// Of a definition, what is evaluated or changes nothing.
-const DEFINITION: [&str; 15] = [
+const DEFINITION: [&str; 16] = [
     "Attributes",
     "Name",
     "Description",
@@ -20,6 +22,8 @@ const DEFINITION: [&str; 15] = [
     // The same value in the other unit of the drawing.
     "ToleranceDualValue",
     "Tolerance",
+    // Refused by name but for the least-squares size.
+    "DimensionModifiers",
     "DatumReferenceFrameId",
     "MaterialCondition",
     "SizeCharacteristicDefinitionId",
@@ -175,6 +179,12 @@ fn size(units: &Units, nominal: Node<'_, '_>, definition: Node<'_, '_>) -> Resul
         return Err(Reason::plain("its limits are those of a general definition"));
     }
     only(tolerance, &TOLERANCE, "its tolerance")?;
+    if let Some(modifiers) = child(definition, "DimensionModifiers") {
+        let asked = elements(modifiers).map(|m| content(m).trim().to_owned());
+        if let Some(other) = asked.into_iter().find(|m| m != "GG") {
+            return Err(Reason::plain(format!("its size is asked with {}, not GG", shown(&other))));
+        }
+    }
     let high = units.length_of(tolerance, "MaxValue", In::Drawing)?;
     let low = units.length_of(tolerance, "MinValue", In::Drawing)?;
     let (Some(low_mm), Some(high_mm)) = (low, high) else {
