@@ -137,6 +137,46 @@ fn a_bore_by_hand() {
     assert!(text.iter().all(|t| document.contains(t)));
 }
 
+/// The text of a document from a name to the end of its element, without line ends and indents.
+fn element(document: &str, name: &str) -> String {
+    let (_, rest) = document.split_once(&format!("<Name>{name}</Name>")).unwrap();
+    let (content, _) = rest.split_once("FeatureNominal>").unwrap();
+    content.split_whitespace().collect::<Vec<_>>().join(" ").replace("> <", "><")
+}
+
+/// What no draft reads: a rounding of 24 mm ring and 4 mm section from 180° to 270°, a slot of 12 mm, a table of two points, a tip.
+#[test]
+fn other_shapes_by_hand() {
+    let part = every();
+    let document = written(&part, &found(&part));
+    let plain = document.split_whitespace().collect::<Vec<_>>().join(" ").replace("> <", "><");
+    let side = |name: &str| format!("<InternalExternal>{name}</InternalExternal>");
+    for (side, size) in [
+        (side("INTERNAL"), "<MinorDiameter>4</MinorDiameter><MajorDiameter>24</MajorDiameter>"),
+        (side("EXTERNAL"), "<MinorDiameter>4</MinorDiameter><MajorDiameter>30</MajorDiameter>"),
+        (side("INTERNAL"), "<Width>12</Width><Length>40</Length><EndType>"),
+        (side("EXTERNAL"), "<Width>60</Width><Length>100</Length><EndType>"),
+        // A tip has no small end.
+        (
+            side("EXTERNAL"),
+            "<Diameter>0</Diameter><HalfAngle>0.540419500271</HalfAngle>\
+             <LargeEndDistance>5</LargeEndDistance></Cone",
+        ),
+    ] {
+        assert!(plain.contains(&format!("{side}{size}")), "{side}{size}");
+    }
+    assert!(plain.contains("</EndType><Depth>10</Depth>"));
+    let fillet = element(&document, "fillet");
+    assert!(fillet.contains("<Location>10 5 22</Location><AxisVector>0 0 1</AxisVector>"));
+    let latitude = "<DomainLatitude>3.14159265359 4.712388980385</DomainLatitude>";
+    assert!(fillet.contains(latitude) && !fillet.contains("DirNorthPole"), "{fillet}");
+    let slot = element(&document, "slot");
+    let middle = "<CenterPlane><Point>0 0 15</Point><Normal>0 1 0</Normal></CenterPlane>";
+    assert!(slot.contains(middle) && slot.contains("<LengthVector>1 0 0</LengthVector>"), "{slot}");
+    let second = "<Point>4 5 6.25</Point><Normal>0 0.6 0.8</Normal><SequenceNumber>2<";
+    assert!(element(&document, "table").contains(second));
+}
+
 /// One verdict of all: fails with one, passes with all.
 #[test]
 fn the_verdict_of_the_part() {
