@@ -13,6 +13,7 @@ Examples:
   trueaxis predict examples/03_predict/nas979-on-xkas2525.toml
   trueaxis predict examples/03_predict/torque-arm.toml
   trueaxis predict examples/03_predict/housing.toml
+  trueaxis predict examples/03_predict/housing.toml --results housing.qif
   trueaxis predict examples/03_predict/nas979-on-xkas2525.toml --format json
 
 Exit status: 0 the part is predicted within tolerance, 1 it is not (or that is undecided within the
@@ -27,6 +28,9 @@ pub struct Arguments {
     /// Monte Carlo seed, instead of the study's
     #[arg(long, value_name = "SEED")]
     seed: Option<u64>,
+    /// Of a part, write its characteristics with value, u and verdict here: a table (.csv) or QIF (.qif, ISO 23952)
+    #[arg(long, value_name = "FILE")]
+    results: Option<PathBuf>,
     #[command(flatten)]
     door: DoorArguments,
 }
@@ -36,6 +40,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         study: arguments.study.clone(),
         samples: arguments.samples.clone(),
         seed: arguments.seed,
+        results: arguments.results.clone(),
     };
     arguments.door.door().ask(&question)
 }

@@ -16,7 +16,17 @@ struct Case {
 
 const I5: &str = "machines/i5-engraver/machine.toml";
 
-const CASES: [Case; 17] = [
+const CASES: [Case; 19] = [
+    Case {
+        words: "part crates/trueaxis-cli/tests/data/plate.qif -o OUT",
+        file: "OUT",
+        input: "crates/trueaxis-cli/tests/data/plate.qif",
+    },
+    Case {
+        words: "predict examples/03_predict/s-shape.toml --results OUT.csv",
+        file: "OUT.csv",
+        input: "parts/s-shape.toml",
+    },
     Case {
         words: "post machines/i5-engraver/machine.toml examples/06_compensate/bangle.cls --control fanuc -o OUT",
         file: "OUT",
@@ -188,17 +198,17 @@ fn check(cases: std::ops::Range<usize>) {
 
 #[test]
 fn programs_and_values_are_replaced_by_one_rule() {
-    check(0..5);
+    check(0..7);
 }
 
 #[test]
 fn machines_and_tables_are_replaced_by_one_rule() {
-    check(5..12);
+    check(7..14);
 }
 
 #[test]
 fn readings_and_plans_are_replaced_by_one_rule() {
-    check(12..CASES.len());
+    check(14..CASES.len());
 }
 
 /// The case of a person who filled in the table of a plan, without the list of what was written and with it.

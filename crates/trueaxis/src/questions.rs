@@ -5,7 +5,7 @@
 //! use trueaxis::files::disk;
 //! use trueaxis::input::Diagnostics;
 //! use trueaxis::questions::{Answer, Predict, ask};
-//! let question = Predict { study: "nas979-on-xkas2525.toml".into(), samples: None, seed: None };
+//! let question = Predict { study: "nas979-on-xkas2525.toml".into(), ..Predict::default() };
 //! let mut problems = Diagnostics::new();
 //! let answer = ask(&question, &disk(), &|_| {}, &mut problems).unwrap();
 //! println!("{}", answer.text());

@@ -167,7 +167,7 @@ impl Request for PredictRequest {
                 }));
                 Reply::frame(&answer, hole_arrays(study, prediction))
             }
-            Predicted::Drawing(study, prediction) => {
+            Predicted::Drawing(study, prediction, _) => {
                 let names = study.mounted.stated_errors().into_iter().map(|(_, name)| name);
                 let names: Vec<ErrorName> = names.collect();
                 let answer = PredictAnswer::Drawing(Box::new(DrawingEntry {

@@ -1,19 +1,21 @@
 //! Will the part be good?
 
-use super::{Answer, Question, Tell};
+use super::{Answer, NewFile, Question, Tell};
+use crate::files::output::Output;
 use crate::report;
 use serde_json::Value;
 use std::path::PathBuf;
 use trueaxis_input::{Diagnostics, Files, Place};
+use trueaxis_part::qif::results::{Found, results, results_csv};
 use trueaxis_part::tolerance::Outcome;
 use trueaxis_predict::predict::drawing::{
-    PartPrediction, PartStudy, is_part_study, predict_part, read_part_study,
+    PartPrediction, PartStudy, PartValue, is_part_study, predict_part, read_part_study,
 };
 use trueaxis_predict::predict::holes::{
     HolePrediction, HoleSet, HoleStudy, is_hole_study, predict_holes, read_hole_study,
 };
 use trueaxis_predict::predict::{Error, Prediction, Sampling, Study, predict, read_study};
-use trueaxis_report::{Report, document};
+use trueaxis_report::{Report, VERSION, document};
 
 /// A test piece, holes or a part before they are cut.
 #[derive(Debug, Clone, Default)]
@@ -24,6 +26,8 @@ pub struct Predict {
     pub samples: Option<String>,
     /// Random seed instead of the study's.
     pub seed: Option<u64>,
+    /// Where the characteristics of a part go: a table (`csv`) or a QIF document (`qif`), by the extension.
+    pub results: Option<PathBuf>,
 }
 
 /// A study that was read.
@@ -44,11 +48,68 @@ pub enum Predicted {
     Part(Box<Study>, Box<Prediction>),
     /// Holes on a circle.
     Holes(Box<HoleStudy>, Box<HolePrediction>),
-    /// A part of any shape.
-    Drawing(Box<PartStudy>, Box<PartPrediction>),
+    /// A part of any shape, and a file of its results; it is handed out once.
+    Drawing(Box<PartStudy>, Box<PartPrediction>, Option<NewFile>),
 }
 
 impl Predict {
+    /// Whether results are wanted as QIF; none where the extension says neither.
+    fn is_qif(&self) -> Option<bool> {
+        let extension = self.results.as_ref()?.extension()?.to_ascii_lowercase();
+        match extension.to_str()? {
+            "qif" => Some(true),
+            "csv" => Some(false),
+            _ => None,
+        }
+    }
+
+    /// What keeps the results from being written.
+    fn check_results(&self, is_part: bool, problems: &mut Diagnostics) {
+        let Some(path) = &self.results else { return };
+        let place = Place::whole("--results");
+        if !is_part {
+            let message = "results are written of a study of a part".to_owned();
+            problems.error(
+                "contradiction",
+                place,
+                message,
+                "leave it out; --format json has the figures",
+            );
+        } else if self.is_qif().is_none() {
+            let message = format!("`{}` is neither a table nor a QIF document", path.display());
+            problems.error("unknown-word", place, message, "--results NAME.csv or NAME.qif");
+        }
+    }
+
+    fn results_of(
+        &self,
+        study: &PartStudy,
+        prediction: &PartPrediction,
+        problems: &mut Diagnostics,
+    ) -> Option<NewFile> {
+        let (path, is_qif) = (self.results.as_ref()?, self.is_qif()?);
+        let found =
+            |v: &PartValue| Found { value_mm: v.value_mm, u_mm: v.u_mm, outcome: v.outcome };
+        let found: Vec<Found> = prediction.values.iter().map(found).collect();
+        let text = match is_qif {
+            true => results(&study.part, &found, &format!("TrueAxis {VERSION}")),
+            false => results_csv(&study.part, &found),
+        };
+        match text {
+            Ok(text) => Some(NewFile::of("results", path, text)),
+            Err(error) => {
+                let hint = "values that are finite";
+                problems.error(
+                    "not-finite-result",
+                    Place::whole("--results"),
+                    error.to_string(),
+                    hint,
+                );
+                None
+            }
+        }
+    }
+
     fn place(&self) -> Place {
         Place::whole(&self.study.display().to_string())
     }
@@ -80,6 +141,7 @@ impl Question for Predict {
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<PredictInput> {
         let samples = self.samples(problems);
+        self.check_results(is_part_study(files, &self.study), problems);
         if is_hole_study(files, &self.study) {
             let study = problems.keep(read_hole_study(files, &self.study));
             return study.map(Box::new).map(PredictInput::Holes);
@@ -93,6 +155,10 @@ impl Question for Predict {
         let mut study = Box::new(study?);
         study.sampling = self.sampling(study.sampling, samples);
         Some(PredictInput::Part(study))
+    }
+
+    fn outputs(&self, _: Option<&PredictInput>) -> Vec<Output> {
+        self.results.iter().map(|path| Output::file("--results", path)).collect()
     }
 
     fn answer(
@@ -114,7 +180,8 @@ impl Question for Predict {
             }
             PredictInput::Drawing(study) => {
                 let prediction = predict_part(&study, progress, problems)?;
-                Some(Predicted::Drawing(study, Box::new(prediction)))
+                let results = self.results_of(&study, &prediction, problems);
+                Some(Predicted::Drawing(study, Box::new(prediction), results))
             }
             PredictInput::Holes(study) => match predict_holes(&study) {
                 Ok(prediction) => {
@@ -155,7 +222,7 @@ impl Answer for Predicted {
             Self::Holes(study, prediction) => {
                 document(&report::HolesDocument::of(study, prediction))
             }
-            Self::Drawing(study, prediction) => {
+            Self::Drawing(study, prediction, _) => {
                 document(&report::DrawingDocument::of(study, prediction))
             }
         }
@@ -165,14 +232,21 @@ impl Answer for Predicted {
         match self {
             Self::Part(study, prediction) => report::prediction_report(study, prediction),
             Self::Holes(study, prediction) => report::holes_report(study, prediction),
-            Self::Drawing(study, prediction) => report::drawing_report(study, prediction),
+            Self::Drawing(study, prediction, _) => report::drawing_report(study, prediction),
+        }
+    }
+
+    fn files(&mut self) -> Vec<NewFile> {
+        match self {
+            Self::Drawing(.., results) => results.take().into_iter().collect(),
+            Self::Part(..) | Self::Holes(..) => Vec::new(),
         }
     }
 
     fn is_yes(&self) -> bool {
         match self {
             Self::Part(_, prediction) => prediction.outcome() == Outcome::Pass,
-            Self::Drawing(_, prediction) => prediction.outcome == Outcome::Pass,
+            Self::Drawing(_, prediction, _) => prediction.outcome == Outcome::Pass,
             Self::Holes(study, prediction) => {
                 let applied = prediction.sets.iter().find(|s| s.compensation == study.applied);
                 applied.and_then(HoleSet::keeps_tolerances) != Some(false)

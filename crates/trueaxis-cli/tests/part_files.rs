@@ -1,0 +1,85 @@
+//! Part files as a user meets them: drafts of QIF files, results as QIF and as a table.
+
+mod command;
+
+use command::{Folder, trueaxis};
+use serde_json::Value;
+use std::fs;
+
+const HOUSING: &str = "examples/03_predict/housing.toml";
+const PLATE: &str = "crates/trueaxis-cli/tests/data/plate.qif";
+
+fn list<'a>(document: &'a Value, key: &str) -> &'a Vec<Value> {
+    document[key].as_array().unwrap_or_else(|| panic!("{key}: {document}"))
+}
+
+/// A draft without unknown values is a part file with the features and characteristics that it counts.
+#[test]
+fn a_draft_is_a_part_file() {
+    let folder = Folder::new("part-draft");
+    let file = folder.path("plate.toml");
+    let shown = trueaxis(&["part", PLATE, "--format", "json"]).json();
+    let draft = &shown["draft"];
+    assert_eq!((&draft["unknown"], list(draft, "left_out").len()), (&Value::from(0), 0));
+    let ran = trueaxis(&["part", PLATE, "-o", &file]);
+    assert!(ran.status == 0 && ran.out.contains("COMPLETE"), "{}", ran.err);
+    assert_eq!(draft["text"], fs::read_to_string(&file).expect("the draft").as_str());
+    let part = trueaxis(&["part", &file, "--format", "json"]).json();
+    assert_eq!(draft["features"], list(&part, "features").len());
+    assert_eq!(draft["characteristics"], list(&part, "characteristics").len());
+    assert!(part["draft"].is_null());
+}
+
+/// The table and the QIF document have the values of the JSON document; the latter is drafted as the part that it came from.
+#[test]
+fn results_are_those_of_the_prediction() {
+    let folder = Folder::new("part-results");
+    let (csv, qif) = (folder.path("r.csv"), folder.path("r.qif"));
+    let ask = |results: &str| {
+        let words =
+            ["predict", HOUSING, "--samples", "0", "--format", "json", "--results", results];
+        let ran = trueaxis(&words);
+        assert_eq!(ran.status, 1, "{}", ran.err);
+        ran.json()
+    };
+    let document = ask(&csv);
+    assert_eq!(ask(&qif), document);
+    let asked = list(&document, "characteristics");
+    let table = fs::read_to_string(&csv).expect("the table");
+    let rows: Vec<Vec<&str>> = table.lines().skip(1).map(|l| l.split(',').collect()).collect();
+    assert_eq!(rows.len(), asked.len());
+    let text = fs::read_to_string(&qif).expect("the document");
+    for (row, one) in rows.iter().zip(asked) {
+        assert_eq!(row[0], one["name"].as_str().expect("a name"));
+        for (cell, key) in [(4, "value_mm"), (5, "u_mm"), (7, "high_mm"), (8, "used_ratio")] {
+            let (cell, due) = (row[cell].parse::<f64>().expect("a number"), one[key].as_f64());
+            assert_eq!(Some(cell), due, "{key} of {row:?}");
+        }
+        assert_eq!(row[9], one["outcome"].as_str().expect("an outcome"));
+    }
+    assert_eq!(text.matches("combinedUncertainty=\"").count(), asked.len());
+    let draft = trueaxis(&["part", &qif, "--format", "json"]).json();
+    assert_eq!(draft["draft"]["characteristics"], asked.len());
+}
+
+#[test]
+fn results_that_cannot_be_written_are_refused() {
+    let folder = Folder::new("part-refused");
+    for (words, code) in [
+        (vec!["predict", HOUSING, "--results", "r.xlsx"], "unknown-word"),
+        (
+            vec!["predict", "examples/03_predict/torque-arm.toml", "--results", "r.csv"],
+            "contradiction",
+        ),
+        (vec!["part", "parts/housing.toml", "-o", "draft.toml"], "contradiction"),
+        (vec!["part", "machines/i5-engraver/machine.toml"], "missing-key"),
+        (vec!["part", "no-such.qif"], "unreadable-file"),
+    ] {
+        let ran = trueaxis(&words);
+        assert!(ran.status == 2 && ran.err.contains(code), "{words:?}: {}", ran.err);
+    }
+    let text = fs::read_to_string(command::root().join(PLATE)).expect("the file");
+    let broken = folder.file("broken.qif", text.replacen("<FileUnits>", "<Fileunits>", 1));
+    let ran = trueaxis(&["part", &broken]);
+    assert!(ran.status == 2 && ran.err.contains("bad-xml"), "{}", ran.err);
+}
