@@ -760,6 +760,7 @@ export interface Documents {
   "live-status": LiveStatus;
   "measure-part": MeasurePart;
   measure: Measure;
+  part: Part;
   "plan-probe-surface": PlanProbeSurface;
   "plan-tool-setting": PlanToolSetting;
   plan: Plan;
@@ -8558,6 +8559,160 @@ export interface MeasureChannelEntry {
    */
   largest_row: number;
   [k: string]: number;
+}
+/**
+ * A part file or a draft of one: `trueaxis/part/1`.
+ */
+export interface Part {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/part/1";
+  /**
+   * The name of the part; null for a draft.
+   */
+  name: string | null;
+  /**
+   * The features of a part file.
+   */
+  features: PartFeatureEntry[];
+  /**
+   * Its characteristics.
+   */
+  characteristics: PartCharacteristicEntry[];
+  /**
+   * The draft of a QIF file; null for a part file.
+   */
+  draft: DraftEntry | null;
+  /**
+   * The problems found in the input; the command line prints them on standard error, too.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * A feature of a part file.
+ */
+export interface PartFeatureEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * `plane`, `cylinder`, `cone`, `sphere`, `torus`, `slot`, `tongue`, `points` or `programmed surface`.
+   */
+  shape: string;
+  /**
+   * Its letter as a datum.
+   */
+  datum: string | null;
+  /**
+   * How many points are checked; of a surface of the program, lines of sight.
+   */
+  points: number;
+}
+/**
+ * A characteristic of a part file.
+ */
+export interface PartCharacteristicEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * What is asked, such as `flatness`.
+   */
+  kind: string;
+  /**
+   * Of which feature or pattern.
+   */
+  feature: string;
+  /**
+   * To which features, the first datum first.
+   */
+  datums: string[];
+  /**
+   * The least value allowed; null for a zone, mm.
+   */
+  low_mm: number | null;
+  /**
+   * The largest value allowed, mm.
+   */
+  high_mm: number;
+}
+/**
+ * A draft of a part file.
+ */
+export interface DraftEntry {
+  /**
+   * The text of the part file.
+   */
+  text: string;
+  /**
+   * How many features it has.
+   */
+  features: number;
+  /**
+   * How many characteristics.
+   */
+  characteristics: number;
+  /**
+   * How many values the file does not state; they are written as `"?"`.
+   */
+  unknown: number;
+  /**
+   * What of the QIF file is not in it.
+   */
+  left_out: PartLeftOutEntry[];
+}
+/**
+ * Something that is not in a draft.
+ */
+export interface PartLeftOutEntry {
+  /**
+   * Its id in the QIF file.
+   */
+  id: string;
+  /**
+   * What it is.
+   */
+  what: string;
+  /**
+   * Why it is not in the draft.
+   */
+  reason: string;
+  /**
+   * Its line in the QIF file.
+   */
+  line: number;
 }
 /**
  * A probing path over a surface.

@@ -68,7 +68,7 @@ fn surface_point(nail: &Nail, cut: &Cut) -> Option<SurfacePoint> {
     is_seen.then_some(SurfacePoint { point_mm, normal, axis: normal, line: 0 })
 }
 
-/// Without the points where the nail along the normal ends elsewhere; what is left of the nails of the others.
+/// Without the points where the nail along the normal ends elsewhere; the ends of the nails of the others.
 fn keep_smooth(feature: &mut Feature, nominal: &[Sweep]) -> Vec<Reach> {
     let ends = cut(nominal, &nails_of(feature));
     let is_smooth =
