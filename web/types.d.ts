@@ -9786,6 +9786,10 @@ export interface PredictPart {
    */
   outcome: string;
   /**
+   * Errors each of whose corrections alone brings all characteristics into tolerance, the best first; empty where they are.
+   */
+  sufficient: string[];
+  /**
    * Steps of the tools.
    */
   steps: number;
@@ -11814,6 +11818,10 @@ export interface DrawingDocument {
    * `pass`, `fail`, or `undecided` within the uncertainty.
    */
   outcome: string;
+  /**
+   * Errors each of whose corrections alone brings all characteristics into tolerance, the best first; empty where they are.
+   */
+  sufficient: string[];
   /**
    * Steps of the tools.
    */

@@ -74,6 +74,7 @@ fn results_that_cannot_be_written_are_refused() {
         (vec!["part", "parts/housing.toml", "-o", "draft.toml"], "contradiction"),
         (vec!["part", "machines/i5-engraver/machine.toml"], "missing-key"),
         (vec!["part", "no-such.qif"], "unreadable-file"),
+        (vec!["part", "no-such.step"], "not-a-part-file"),
     ] {
         let ran = trueaxis(&words);
         assert!(ran.status == 2 && ran.err.contains(code), "{words:?}: {}", ran.err);

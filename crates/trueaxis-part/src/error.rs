@@ -26,6 +26,14 @@ pub enum Error {
         /// The dimension and its permitted range.
         what: String,
     },
+    /// A characteristic without a value.
+    #[error("{name}: {reason}")]
+    Characteristic {
+        /// Its name.
+        name: String,
+        /// Why its points have none.
+        reason: String,
+    },
     /// A list whose length does not fit this test piece.
     #[error("{what}: {found} values, expected {expected}")]
     WrongLength {

@@ -361,3 +361,22 @@ fn oracle_the_place_of_a_pattern() {
         near(found, case.position_mm, 2e-8);
     }
 }
+
+/// A strip of 150 × 4 mm has rows enough for a plane, whatever spacing is asked for; a characteristic without a value is named.
+#[test]
+fn law_a_narrow_strip_is_a_plane() {
+    for spacing in ["", "spacing = \"50 mm\"\n"] {
+        let strip = format!(
+            "name = \"p\"\n[feature.strip]\nplane = {{ at = \"0 0 0 mm\", normal = \"0 0 1\", size = \"150 4 mm\" }}\n{spacing}"
+        );
+        let found = values(&(strip + &asked("flatness", "strip", "")), &|_, p| 1e-4 * p.point_mm.y);
+        near(found[0], 0.0, 1e-9);
+    }
+    let table = "name = \"p\"\n[feature.line]\nhole = { at = \"0 0 0 mm\", axis = \"0 0 1\", diameter = \"8 mm\", length = \"10 mm\" }\n"
+        .to_owned()
+        + &asked("cylindricity", "line", "");
+    let part = part(&table);
+    // A hole that is closed up: all points of it on its axis.
+    let error = part.evaluate(&vec![4.0; part.points()]).expect_err("no cylinder").to_string();
+    assert!(error.starts_with("cylindricity of line: "), "{error}");
+}

@@ -364,6 +364,17 @@ fn shipped(name: &str) -> (PartStudy, PartPrediction) {
 fn the_housing_and_the_blade_are_judged() {
     let (_, housing) = shipped("housing.toml");
     assert!(housing.values.iter().all(|v| v.value_mm.is_finite() && v.u_mm > 0.0));
+    // Its squareness of 18 µrad over the 148 mm between the outermost points of the side; what EYX and EXY bend is below 0.2 µm.
+    let (study, piece) = shipped("circle-diamond-square.toml");
+    let asked = &study.part.characteristics;
+    let leaning =
+        asked.iter().position(|c| c.name == "perpendicularity of left to B").expect("named");
+    assert!(
+        (piece.values[leaning].value_mm - 18e-6 * 148.0).abs() < 0.2e-3,
+        "{:?}",
+        values(&piece)
+    );
+    assert!(piece.values.iter().all(|v| v.nominal_mm.abs() < 0.03e-3));
     let (_, blade) = shipped("blade.toml");
     assert!(blade.features[0].points.len() > 1000 && !blade.errors_without_u.is_empty());
     assert!(blade.features[0].points.iter().all(|p| p.by_program_mm.abs() < 1e-5));
@@ -400,6 +411,27 @@ fn law_blocks_are_named_with_tools_by_turns() {
         };
         assert_eq!((point.origin.tool, point.origin.line), expected, "{}", point.nominal_mm);
     }
+}
+
+/// Of a side that leans by 6.5 µm with 5 µm allowed, the squareness alone is at fault; with 9 µm allowed nothing is; where two errors lean two sides,
+/// neither alone is enough.
+#[test]
+fn law_the_correction_that_is_sufficient() {
+    let names = |machine: &str, tolerance: &str, position: &str| {
+        let part = PART
+            .replace("perpendicularity = \"10 um\"", &format!("perpendicularity = \"{tolerance}\""))
+            .replace("position = \"10 um\"", &format!("position = \"{position}\""));
+        let found = predicted(&[("m.toml", machine), ("p.toml", &part)]);
+        let names: Vec<String> = found.sufficient.iter().map(ToString::to_string).collect();
+        (names.join(" "), found.outcome)
+    };
+    use trueaxis_part::tolerance::Outcome;
+    let machine = mill("EC0Y = \"100 urad\"\nEB0Z = \"5 urad\"");
+    assert_eq!(names(&machine, "5 um", "10 um"), ("EC0Y".to_owned(), Outcome::Fail));
+    assert_eq!(names(&machine, "9 um", "10 um"), (String::new(), Outcome::Pass));
+    // The bore stands 1.6 µm out of place by EB0Z over its length, the side leans by EC0Y.
+    let both = mill("EC0Y = \"100 urad\"\nEB0Z = \"100 urad\"");
+    assert_eq!(names(&both, "5 um", "1 um"), (String::new(), Outcome::Fail));
 }
 
 /// ISO 14253-1: a value within U of its limit is neither, above it by more it fails, below it by more it passes.

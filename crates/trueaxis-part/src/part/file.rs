@@ -26,6 +26,15 @@ const PROGRAMMED_MM: f64 = 0.1;
 impl Part {
     /// A part file by its path.
     pub fn of_file(files: &Files, path: &Path, problems: &mut Diagnostics) -> Option<Self> {
+        if let Some((what, hint)) = foreign(path) {
+            problems.error(
+                "not-a-part-file",
+                Place::whole(&path.display().to_string()),
+                what,
+                hint,
+            );
+            return None;
+        }
         let text = files.text(path, "a part file (TOML)", problems)?;
         let name = path.display().to_string();
         let source = SourceText::from(files, &name, &text);
@@ -67,6 +76,26 @@ impl Part {
         let part =
             Self { name: name?.to_owned(), source, features, characteristics: characteristics? };
         (complete && !part.characteristics.is_empty()).then_some(part)
+    }
+}
+
+/// What files of other forms are, and what is done with them.
+fn foreign(path: &Path) -> Option<(String, &'static str)> {
+    let extension = path.extension()?.to_ascii_lowercase();
+    match extension.to_str()? {
+        "stp" | "step" | "p21" | "igs" | "iges" => Some((
+            "geometry of STEP and IGES is not read".to_owned(),
+            "export the body as STL and name it in a feature, mesh = { stl = \"part.stl\" }, or its features as QIF",
+        )),
+        "qif" => Some((
+            "a QIF file is drafted first, since it does not state all that is needed".to_owned(),
+            "trueaxis part MODEL.qif -o PART.toml",
+        )),
+        "stl" => Some((
+            "a body without features and tolerances".to_owned(),
+            "name it in a feature of a part file, mesh = { stl = \"part.stl\" }",
+        )),
+        _ => None,
     }
 }
 

@@ -57,7 +57,14 @@ impl Part {
             })
             .collect();
         let mut systems = Systems { features: &self.features, found: Vec::new() };
-        self.characteristics.iter().map(|asked| value(asked, &surfaces, &mut systems)).collect()
+        let each = self.characteristics.iter().map(|asked| {
+            let refused = |e: Error| Error::Characteristic {
+                name: asked.name.clone(),
+                reason: e.to_string(),
+            };
+            value(asked, &surfaces, &mut systems).map_err(refused)
+        });
+        each.collect()
     }
 }
 

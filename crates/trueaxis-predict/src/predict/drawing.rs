@@ -25,6 +25,7 @@ use trueaxis_cut::{Cut, Nail, Reach, Sweep, cut};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::surface::SurfacePoint;
 use trueaxis_input::{Diagnostics, Place};
+use trueaxis_machine::errors::ErrorName;
 use trueaxis_motion::{Findings, Observer};
 use trueaxis_part::part;
 use trueaxis_part::tolerance::Outcome;
@@ -83,6 +84,8 @@ pub struct PartPrediction {
     pub programs: Vec<String>,
     /// All characteristics together.
     pub outcome: Outcome,
+    /// Errors each of whose corrections alone brings all characteristics into tolerance, the best first; none where they are.
+    pub sufficient: Vec<ErrorName>,
     /// Moves that cut, all tools together.
     pub steps: usize,
     /// Errors whose uncertainty is not stated: they add nothing to u.
@@ -167,9 +170,14 @@ pub fn predict_part(
         (Outcome::Undecided, _) | (_, Outcome::Undecided) => Outcome::Undecided,
         (Outcome::Pass, Outcome::Pass) => Outcome::Pass,
     });
+    let sufficient = match outcome {
+        Outcome::Pass => Vec::new(),
+        Outcome::Fail | Outcome::Undecided => budget::sufficient(study, &part, &values),
+    };
     Some(PartPrediction {
         features,
         values,
+        sufficient,
         drawn,
         programs: run.programs,
         outcome,

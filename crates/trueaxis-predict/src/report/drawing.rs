@@ -130,8 +130,24 @@ fn budget<'a>(study: &PartStudy, prediction: &PartPrediction) -> Section<'a> {
             ]);
         }
     }
-    Section::new("Error budget")
-        .table(table.note("The errors whose absence changes a value most, to first order."))
+    let note = "The errors whose absence changes a value most, to first order.";
+    Section::new("Error budget").paragraph(correction(prediction)).table(table.note(note))
+}
+
+/// Which single correction is sufficient.
+fn correction(prediction: &PartPrediction) -> String {
+    let names: Vec<String> = prediction.sufficient.iter().map(ToString::to_string).collect();
+    match (prediction.outcome, &names[..]) {
+        (Outcome::Pass, _) => "No correction is necessary.".to_owned(),
+        (_, []) => "No single correction brings all characteristics into tolerance.".to_owned(),
+        (_, [one]) => {
+            format!("The correction of {one} alone brings all characteristics into tolerance.")
+        }
+        (_, [first, others @ ..]) => format!(
+            "The correction of {first} alone brings all characteristics into tolerance; so does that of {}.",
+            others.join(", of ")
+        ),
+    }
 }
 
 fn features<'a>(study: &PartStudy, prediction: &'a PartPrediction) -> Section<'a> {

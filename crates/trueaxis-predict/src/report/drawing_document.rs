@@ -25,6 +25,8 @@ pub struct DrawingDocument<'a> {
     pub part: &'a str,
     /// `pass`, `fail`, or `undecided` within the uncertainty.
     pub outcome: &'static str,
+    /// Errors each of whose corrections alone brings all characteristics into tolerance, the best first; empty where they are.
+    pub sufficient: Vec<String>,
     /// Steps of the tools.
     pub steps: usize,
     /// Errors of the machine file without a stated uncertainty; they add nothing to `u_mm`.
@@ -181,6 +183,7 @@ impl<'a> DrawingDocument<'a> {
             name: &study.name,
             part: &part.name,
             outcome: word(prediction.outcome),
+            sufficient: prediction.sufficient.iter().map(ToString::to_string).collect(),
             steps: prediction.steps,
             errors_without_u: &prediction.errors_without_u,
             monte_carlo: study.sampling.zip(drawn).map(many),

@@ -118,7 +118,8 @@ fn rectangle(
     spacing_mm: f64,
 ) -> impl Iterator<Item = Row> {
     let across = normal.cross(&along);
-    let counts = size_mm.map(|size| steps(size, spacing_mm));
+    // A single row would be a line, through which no plane is laid.
+    let counts = size_mm.map(|size| steps(size, spacing_mm).max(2));
     let offset = move |i: usize, k: usize| size_mm[i] * (middle(k, counts[i]) - 0.5);
     (0..counts[1]).map(move |j| {
         let from = at_mm + across * offset(1, j);

@@ -32,8 +32,10 @@ pub(super) fn usual_spacing(geometry: &Geometry) -> f64 {
         let around = PI * radius_mm / 18.0;
         around.min((0.2 * length_mm).max(0.5 * around))
     };
+    // At least three rows on a narrow strip.
+    let flat = |[a, b]: &[f64; 2], share: f64| (share * a.max(*b)).min(a.min(*b) / 3.0);
     match geometry {
-        Geometry::Plane { size_mm, .. } => 0.05 * size_mm[0].max(size_mm[1]),
+        Geometry::Plane { size_mm, .. } | Geometry::Slot { size_mm, .. } => flat(size_mm, 0.05),
         Geometry::Cylinder { radius_mm, length_mm, .. } => round(*radius_mm, *length_mm),
         Geometry::Cone { radii_mm, length_mm, .. } => {
             round(radii_mm[0].max(radii_mm[1]), *length_mm)
@@ -42,8 +44,7 @@ pub(super) fn usual_spacing(geometry: &Geometry) -> f64 {
         Geometry::Torus { ring_mm, radius_mm, .. } => {
             (PI * ring_mm / 18.0).min(PI * radius_mm / 12.0)
         }
-        Geometry::Slot { size_mm, .. } => 0.05 * size_mm[0].max(size_mm[1]),
-        Geometry::Programmed { size_mm, .. } => 0.025 * size_mm[0].max(size_mm[1]),
+        Geometry::Programmed { size_mm, .. } => flat(size_mm, 0.025),
         Geometry::Points => 1.0,
     }
 }

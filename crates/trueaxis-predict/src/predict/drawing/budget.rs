@@ -10,6 +10,7 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::errors::{ErrorIndex, ErrorName, ErrorValues};
 use trueaxis_part::part;
+use trueaxis_part::tolerance::Outcome;
 
 /// What one error does to a characteristic.
 #[derive(Debug, Clone, PartialEq)]
@@ -212,6 +213,28 @@ fn largest(parts: impl Iterator<Item = (ErrorName, f64)>) -> Vec<PointEffect> {
     all.truncate(MOST_EFFECTS);
     all.retain(|e| e.part_mm.abs() > least_mm);
     all
+}
+
+/// The errors without which every characteristic passes, that which leaves the most room first.
+pub(super) fn sufficient(
+    study: &PartStudy,
+    part: &part::Part,
+    values: &[PartValue],
+) -> Vec<ErrorName> {
+    let names = values.first().map_or(&[][..], |v| &v.errors).iter().map(|e| e.error);
+    let worst = |error: &ErrorName| {
+        let each = part.characteristics.iter().zip(values).map(|(asked, value)| {
+            let effect = value.errors.iter().find(|e| e.error == *error)?;
+            let without_mm = effect.without_mm;
+            let outcome = outcome(&asked.limits, without_mm, value.u_mm, study.decision);
+            (outcome == Outcome::Pass).then(|| asked.limits.used(without_mm))
+        });
+        each.collect::<Option<Vec<f64>>>().map(|used| used.into_iter().fold(0.0, f64::max))
+    };
+    let mut found: Vec<(ErrorName, f64)> =
+        names.filter_map(|error| Some((error, worst(&error)?))).collect();
+    found.sort_by(|a, b| a.1.total_cmp(&b.1));
+    found.into_iter().map(|(error, _)| error).collect()
 }
 
 fn place<'a>(
