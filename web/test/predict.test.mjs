@@ -323,6 +323,9 @@ test("a part by its drawing: characteristics, errors and surfaces", async () => 
     await page.textContent(`${shown} [data-test=many]`),
     `good on ${(100 * expected.monte_carlo.good_ratio).toFixed(1)} % of machines`,
   );
+  const correction = await page.textContent(`${shown} [data-test=correction]`);
+  for (const name of expected.sufficient) assert.match(correction, new RegExp(`of ${name} alone`));
+  assert.equal(/^No single/.test(correction), expected.sufficient.length === 0);
   await picture(page, "predict-drawing");
   assert.deepEqual(complaints, []);
 });

@@ -60,6 +60,9 @@ export class Drawing {
         { class: "verdict-worst", dataTest: "worst" },
         `${nearest.name}: ${number(100 * nearest.used_ratio, 0)} % of its tolerance`,
       ),
+      document.outcome === "pass"
+        ? null
+        : h("span", { class: "verdict-correction", dataTest: "correction" }, correction(document.sufficient)),
     );
     this.showValues(document);
     this.showBudget(nearest);
@@ -198,6 +201,12 @@ export class Drawing {
     );
   }
 }
+
+/** Which single correction would do. */
+const correction = (names: readonly string[]): string =>
+  names.length === 0
+    ? "No single correction brings all characteristics into tolerance."
+    : `The correction of ${names.join(" alone, or of ")} alone brings all characteristics into tolerance.`;
 
 /** What is not all is not called 100 %. */
 const share = (ratio: number): string =>
