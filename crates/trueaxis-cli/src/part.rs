@@ -15,7 +15,7 @@ Examples:
 
 A QIF file (ISO 23952) states features, datums and tolerances of a model. What a part file can say of them is
 drafted; a value that the QIF file does not state is written as \"?\", and all that is left out is listed with the
-reason. Put the draft to `part` of a study and ask `trueaxis predict`.
+reason. Name the finished file as `part` of a study, and ask `trueaxis predict`.
 
 Exit status: 0 read, 2 unusable input.")]
 pub struct Arguments {
