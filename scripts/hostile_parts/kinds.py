@@ -37,7 +37,7 @@ KINDS = [
     ("part file", "parts/housing.toml", "predict 03/housing.toml"),
     ("part file by its program", "parts/impeller-blade.toml", "predict 03/blade.toml"),
     ("points of a part", "parts/s-shape-a.csv", "predict 03/s-shape.toml"),
-    ("QIF of a product", "crates/trueaxis-cli/tests/data/plate.qif", "part crates/trueaxis-cli/tests/data/plate.qif"),
+    ("QIF of a product", "import/plate.qif", "part import/plate.qif"),
     ("set-up of a part", "03/s-shape.setup.toml", "predict 03/s-shape.toml"),
     ("set-up with stock", "02/ring-fanuc.setup.toml", f"simulate {I5} 02/ring-fanuc.nc --stock"),
     ("STL of a stock", "made/blank.stl", f"simulate {I5} 02/ring-fanuc.nc --setup made/blank.setup.toml --stock"),

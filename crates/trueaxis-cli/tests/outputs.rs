@@ -18,9 +18,9 @@ const I5: &str = "machines/i5-engraver/machine.toml";
 
 const CASES: [Case; 19] = [
     Case {
-        words: "part crates/trueaxis-cli/tests/data/plate.qif -o OUT",
+        words: "part crates/trueaxis-cli/tests/import/plate.qif -o OUT",
         file: "OUT",
-        input: "crates/trueaxis-cli/tests/data/plate.qif",
+        input: "crates/trueaxis-cli/tests/import/plate.qif",
     },
     Case {
         words: "predict examples/03_predict/s-shape.toml --results OUT.csv",

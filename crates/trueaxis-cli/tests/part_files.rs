@@ -7,7 +7,7 @@ use serde_json::Value;
 use std::fs;
 
 const HOUSING: &str = "examples/03_predict/housing.toml";
-const PLATE: &str = "crates/trueaxis-cli/tests/data/plate.qif";
+const PLATE: &str = "crates/trueaxis-cli/tests/import/plate.qif";
 
 fn list<'a>(document: &'a Value, key: &str) -> &'a Vec<Value> {
     document[key].as_array().unwrap_or_else(|| panic!("{key}: {document}"))

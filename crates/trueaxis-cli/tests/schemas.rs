@@ -41,7 +41,7 @@ fn names(server: bool) -> BTreeSet<String> {
 /// Commands that answer in each document; `OUT` is a folder of the test, `~` a space.
 const ANSWERS: &[(&str, &str)] = &[
     ("part", "part parts/housing.toml"),
-    ("part", "part crates/trueaxis-cli/tests/data/plate.qif"),
+    ("part", "part crates/trueaxis-cli/tests/import/plate.qif"),
     ("certificate", "verify --certificate examples/07_verify/certificate.toml"),
     ("check", "check machines/xkas2525/machine.toml"),
     ("compensate", "compensate values machines/xkas2525/machine.toml --axis C --step 30"),
