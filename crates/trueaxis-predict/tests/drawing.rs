@@ -216,7 +216,7 @@ fn law_many_housings_are_as_cut_anew() {
     let path = root().join("examples/03_predict/housing.toml");
     let (study, problems) = read_part_study(&Files::new(Disk), &path);
     let mut study = study.unwrap_or_else(|| panic!("{:?}", words(&problems)));
-    as_cut_anew(&mut study, 200, 2e-5);
+    as_cut_anew(&mut study, 200, 2e-6);
 }
 
 /// What an error does by the normals of the cutter is what another machine without it cuts.
