@@ -357,7 +357,7 @@ fn oracle_the_place_of_a_pattern() {
         };
         let deviation_mm: Vec<f64> = part.features.iter().flat_map(of).collect();
         let found = part.evaluate(&deviation_mm).expect("a value")[0];
-        // The centre of a hole that is displaced along its normals is off by e²/2R at most, 8 nm.
+        // Points all around leave the centre of a displaced hole where it is, to second order.
         near(found, case.position_mm, 2e-8);
     }
 }
