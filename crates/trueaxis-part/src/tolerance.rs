@@ -41,6 +41,17 @@ pub enum Outcome {
     Undecided,
 }
 
+impl Outcome {
+    /// In one word, as in reports and JSON.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Pass => "pass",
+            Self::Fail => "fail",
+            Self::Undecided => "undecided",
+        }
+    }
+}
+
 /// One index against its tolerance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judgement {

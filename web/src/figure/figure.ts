@@ -195,6 +195,12 @@ export function ticks(low: number, high: number, count: number): { values: numbe
   return { values, digits: Math.max(0, -Math.floor(Math.log10(step) + 1e-9)), step };
 }
 
+/** A round number not below, finer than 1, 2, 5. */
+export const finelyRounded = (x: number): number => {
+  const power = 10 ** Math.floor(Math.log10(x));
+  return [1, 1.5, 2, 3, 4, 5, 6, 8, 10].map((m) => m * power).find((m) => m >= x) ?? x;
+};
+
 /** The least round number of 1, 2, 5 × 10ⁿ that is not below x (or the greatest not above). */
 export function roundNumber(x: number, up = true): number {
   if (!(x > 0)) return 1;

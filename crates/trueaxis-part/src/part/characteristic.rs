@@ -155,6 +155,14 @@ impl Kind {
 }
 
 impl Limits {
+    /// The least value allowed, which a zone does not have, and the largest.
+    pub fn ends_mm(&self) -> (Option<f64>, f64) {
+        match *self {
+            Self::Zone { tolerance_mm } => (None, tolerance_mm),
+            Self::Size { low_mm, high_mm } => (Some(low_mm), high_mm),
+        }
+    }
+
     /// Whether a value is allowed, and how far it is from the nearest limit; negative outside.
     pub fn room_mm(&self, value_mm: f64) -> f64 {
         match *self {

@@ -10,9 +10,10 @@ use super::feature::MOST_POINTS;
 use super::{Characteristic, Feature, Geometry, Part};
 use characteristics::read_characteristic;
 use mesh::read_mesh;
-use openings::openings;
+use openings::read_openings;
 use repeat::repeated;
 use shapes::{SHAPES, read_geometry, usual_spacing};
+use std::ops::Range;
 use std::path::Path;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::surface::SurfacePoint;
@@ -27,12 +28,8 @@ impl Part {
     /// A part file by its path.
     pub fn of_file(files: &Files, path: &Path, problems: &mut Diagnostics) -> Option<Self> {
         if let Some((what, hint)) = foreign(path) {
-            problems.error(
-                "not-a-part-file",
-                Place::whole(&path.display().to_string()),
-                what,
-                hint,
-            );
+            let place = Place::whole(&path.display().to_string());
+            problems.error("not-a-part-file", place, what.to_owned(), hint);
             return None;
         }
         let text = files.text(path, "a part file (TOML)", problems)?;
@@ -80,19 +77,19 @@ impl Part {
 }
 
 /// What files of other forms are, and what is done with them.
-fn foreign(path: &Path) -> Option<(String, &'static str)> {
+fn foreign(path: &Path) -> Option<(&'static str, &'static str)> {
     let extension = path.extension()?.to_ascii_lowercase();
     match extension.to_str()? {
         "stp" | "step" | "p21" | "igs" | "iges" => Some((
-            "geometry of STEP and IGES is not read".to_owned(),
+            "geometry of STEP and IGES is not read",
             "export the body as STL and name it in a feature, mesh = { stl = \"part.stl\" }, or its features as QIF",
         )),
         "qif" => Some((
-            "a QIF file is drafted first, since it does not state all that is needed".to_owned(),
+            "a QIF file is drafted first, since it does not state all that is needed",
             "trueaxis part MODEL.qif -o PART.toml",
         )),
         "stl" => Some((
-            "a body without features and tolerances".to_owned(),
+            "a body without features and tolerances",
             "name it in a feature of a part file, mesh = { stl = \"part.stl\" }",
         )),
         _ => None,
@@ -125,48 +122,26 @@ fn read_feature(section: &Section<'_>, name: &str, folder: &Path) -> Option<Feat
     let usual_mm = if kind == "programmed" { PROGRAMMED_MM } else { REACH_MM };
     let reach = ["below", "above"]
         .map(|key| section.get(key).map_or(Some(usual_mm), |item| positive(&item, key)));
-    if matches!(kind, "points" | "mesh") {
-        let points = match kind {
-            "points" => item.text().and_then(|file| read_points(section, &folder.join(file))),
-            _ => {
-                let spacing_mm = spacing.map_or(Some(None), |s| s.map(Some))?;
-                item.section("mesh", |s| read_mesh(s, folder, spacing_mm)).flatten()
-            }
-        };
-        let [below_mm, above_mm] = reach;
-        return Some(Feature {
-            name: name.to_owned(),
-            letter,
-            pattern: None,
-            geometry: Geometry::Points,
-            points: points?,
-            sections: Vec::new(),
-            below_mm: below_mm?,
-            above_mm: above_mm?,
-        });
-    }
     // Asked for before a mistake of the shape ends the reading: else it would be called unknown.
-    let _ = section.get("openings");
-    let geometry = item.section(kind, |s| read_geometry(s, kind)).flatten()?;
+    let openings = section.get("openings");
     let spacing_mm = match spacing {
-        Some(spacing) => spacing?,
-        None => usual_spacing(&geometry),
+        None => None,
+        Some(stated) => Some(stated?),
     };
-    let (points, sections) = match geometry.sampled(spacing_mm) {
-        Ok(found) => found,
-        Err(why) => {
-            section.error("too-many-points", why, "write a larger `spacing`");
-            return None;
+    let (geometry, points, sections) = match kind {
+        "points" => {
+            (Geometry::Points, read_points(section, &folder.join(item.text()?))?, Vec::new())
+        }
+        "mesh" => {
+            let read = |s: &Section<'_>| read_mesh(s, folder, spacing_mm);
+            (Geometry::Points, item.section("mesh", read).flatten()?, Vec::new())
+        }
+        _ => {
+            let geometry = item.section(kind, |s| read_geometry(s, kind)).flatten()?;
+            let (points, sections) = sampled(section, name, &geometry, (spacing_mm, openings))?;
+            (geometry, points, sections)
         }
     };
-    let openings = openings(section, &geometry)?;
-    let is_there = |p: &SurfacePoint| !openings.iter().any(|o| o.contains(&p.point_mm));
-    let points: Vec<SurfacePoint> = points.into_iter().filter(is_there).collect();
-    if points.is_empty() {
-        let message = format!("nothing remains of `{name}` without its openings");
-        section.error("no-points", message, "smaller openings, or a smaller `spacing`");
-        return None;
-    }
     let [below_mm, above_mm] = reach;
     Some(Feature {
         name: name.to_owned(),
@@ -178,6 +153,32 @@ fn read_feature(section: &Section<'_>, name: &str, folder: &Path) -> Option<Feat
         below_mm: below_mm?,
         above_mm: above_mm?,
     })
+}
+
+/// The points of a shape where it has no openings, and its sections.
+fn sampled(
+    section: &Section<'_>,
+    name: &str,
+    geometry: &Geometry,
+    (spacing_mm, openings): (Option<f64>, Option<Item<'_>>),
+) -> Option<(Vec<SurfacePoint>, Vec<Range<usize>>)> {
+    let spacing_mm = spacing_mm.unwrap_or_else(|| usual_spacing(geometry));
+    let (points, sections) = match geometry.sampled(spacing_mm) {
+        Ok(found) => found,
+        Err(why) => {
+            section.error("too-many-points", why, "write a larger `spacing`");
+            return None;
+        }
+    };
+    let openings = openings.map_or(Some(Vec::new()), |item| read_openings(&item, geometry))?;
+    let is_there = |p: &SurfacePoint| !openings.iter().any(|o| o.contains(&p.point_mm));
+    let points: Vec<SurfacePoint> = points.into_iter().filter(is_there).collect();
+    if points.is_empty() {
+        let message = format!("nothing remains of `{name}` without its openings");
+        section.error("no-points", message, "smaller openings, or a smaller `spacing`");
+        return None;
+    }
+    Some((points, sections))
 }
 
 fn positive(item: &Item<'_>, key: &str) -> Option<f64> {

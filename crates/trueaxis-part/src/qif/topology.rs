@@ -1,7 +1,7 @@
 //! Faces of the model: their edges, and the rectangles and circles that these make.
 
 use super::document::{Reader, Reason, child, elements, is_set, listed, name};
-use super::units::Units;
+use super::units::{In, Units};
 use roxmltree::Node;
 use trueaxis_geometry::Vec3;
 
@@ -123,12 +123,15 @@ impl Loop {
 
     /// The corners of a loop of straight edges that closes, without those in the middle of a side.
     fn polygon(&self) -> Option<Vec<Vec3>> {
-        let next = self.edges.iter().cycle().skip(1);
-        let closes = |(a, b): (&Edge, &Edge)| (a.to_mm - b.from_mm).norm() < SAME_MM;
         let is_straight = |e: &Edge| e.curve == Curve::Straight;
-        let is_closed = self.edges.iter().zip(next).all(closes);
-        (is_closed && self.edges.iter().all(is_straight))
+        (self.is_closed() && self.edges.iter().all(is_straight))
             .then(|| self.edges.iter().map(|e| e.from_mm).collect())
+    }
+
+    /// Whether each edge begins where the one before ends.
+    fn is_closed(&self) -> bool {
+        let next = self.edges.iter().cycle().skip(1);
+        self.edges.iter().zip(next).all(|(a, b)| (a.to_mm - b.from_mm).norm() < SAME_MM)
     }
 
     /// The rectangle that the loop is.
@@ -145,9 +148,7 @@ impl Loop {
             }
             _ => false,
         };
-        let next = self.edges.iter().cycle().skip(1);
-        let closes = |(a, b): (&Edge, &Edge)| (a.to_mm - b.from_mm).norm() < SAME_MM;
-        let is_one = self.edges.iter().all(is_of_it) && self.edges.iter().zip(next).all(closes);
+        let is_one = self.is_closed() && self.edges.iter().all(is_of_it);
         is_one.then_some((centre_mm, 2.0 * radius_mm))
     }
 }
@@ -192,7 +193,7 @@ impl Curve {
             "Segment13Core" => Self::Straight,
             "ArcCircular13Core" => {
                 let centre_mm = units.point_of(core, "Center")?;
-                match units.plain_of(core, "Radius")? {
+                match units.length_of(core, "Radius", In::Model)? {
                     Some(radius_mm) if radius_mm > 0.0 => Self::Arc { centre_mm, radius_mm },
                     _ => Self::Other,
                 }

@@ -158,11 +158,6 @@ impl Units {
         Ok(found.chunks_exact(3).map(|c| Vec3::new(c[0], c[1], c[2]) * mm).collect())
     }
 
-    /// A length of the geometry of the model, which has no unit of its own. Unit: mm.
-    pub fn plain_of(&self, node: Node<'_, '_>, key: &str) -> Result<Option<f64>, Reason> {
-        self.length_of(node, key, In::Model)
-    }
-
     fn rad(&self, node: Node<'_, '_>) -> Result<f64, Reason> {
         match node.attribute("angularUnit") {
             None => Ok(self.angle_rad),

@@ -1,6 +1,6 @@
 //! A prediction for a part of any shape in text and on a page.
 
-use super::drawing_document::{extremes, word};
+use super::drawing_document::extremes;
 use super::drawing_pictures::deviation_map;
 use crate::predict::drawing::{
     CutPoint, Drawn, ManyParts, PartPrediction, PartStudy, PartValue, effects,
@@ -49,14 +49,15 @@ fn named(study: &PartStudy, prediction: &PartPrediction, outcome: Outcome, what:
 }
 
 /// µm with two digits, no minus before a zero.
-fn um(mm: f64) -> String {
+pub(super) fn um(mm: f64) -> String {
     format!("{:.2}", (mm * 1e5).round() / 100.0 + 0.0)
 }
 
-fn allowed(limits: &Limits) -> String {
-    match *limits {
-        Limits::Zone { tolerance_mm } => um(tolerance_mm),
-        Limits::Size { low_mm, high_mm } => format!("{} … {}", um(low_mm), um(high_mm)),
+/// Limits in µm.
+pub(super) fn allowed(limits: &Limits) -> String {
+    match limits.ends_mm() {
+        (None, high_mm) => um(high_mm),
+        (Some(low_mm), high_mm) => format!("{} … {}", um(low_mm), um(high_mm)),
     }
 }
 
@@ -69,7 +70,7 @@ fn characteristics<'a>(study: &PartStudy, prediction: &PartPrediction) -> Sectio
             um(value.nominal_mm),
             allowed(&asked.limits),
             format!("{:.0} %", 100.0 * value.used_ratio),
-            word(value.outcome).to_owned(),
+            value.outcome.word().to_owned(),
         ]
     };
     let rows = study.part.characteristics.iter().zip(&prediction.values).map(row);

@@ -7,8 +7,7 @@ use crate::predict::drawing::{
 };
 use schemars::JsonSchema;
 use serde::Serialize;
-use trueaxis_part::part::{Characteristic, Feature, Limits};
-use trueaxis_part::tolerance::Outcome;
+use trueaxis_part::part::{Characteristic, Feature};
 
 /// Errors that are listed for a characteristic.
 const MOST_ERRORS: usize = 10;
@@ -153,15 +152,6 @@ pub struct PointEffectEntry {
     pub part_mm: f64,
 }
 
-/// In one word.
-pub(super) fn word(outcome: Outcome) -> &'static str {
-    match outcome {
-        Outcome::Pass => "pass",
-        Outcome::Fail => "fail",
-        Outcome::Undecided => "undecided",
-    }
-}
-
 impl<'a> DrawingDocument<'a> {
     /// The document of a prediction.
     pub fn of(study: &'a PartStudy, prediction: &'a PartPrediction) -> Self {
@@ -182,7 +172,7 @@ impl<'a> DrawingDocument<'a> {
             schema: "trueaxis/predict/1",
             name: &study.name,
             part: &part.name,
-            outcome: word(prediction.outcome),
+            outcome: prediction.outcome.word(),
             sufficient: prediction.sufficient.iter().map(ToString::to_string).collect(),
             steps: prediction.steps,
             errors_without_u: &prediction.errors_without_u,
@@ -201,10 +191,7 @@ impl<'a> CharacteristicEntry<'a> {
         asked: &'a Characteristic,
         (value, drawn): (&PartValue, Option<Drawn>),
     ) -> Self {
-        let (low_mm, high_mm) = match asked.limits {
-            Limits::Zone { tolerance_mm } => (None, tolerance_mm),
-            Limits::Size { low_mm, high_mm } => (Some(low_mm), high_mm),
-        };
+        let (low_mm, high_mm) = asked.limits.ends_mm();
         let effect = |e: &crate::predict::drawing::ErrorEffect| ErrorEffectEntry {
             error: e.error.to_string(),
             without_mm: e.without_mm,
@@ -221,7 +208,7 @@ impl<'a> CharacteristicEntry<'a> {
             low_mm,
             high_mm,
             used_ratio: value.used_ratio,
-            outcome: word(value.outcome),
+            outcome: value.outcome.word(),
             monte_carlo: drawn
                 .map(|d| DrawnEntry { values: d.spread.into(), good_ratio: d.good_ratio }),
             errors: effects(value, MOST_ERRORS).map(effect).collect(),

@@ -1,8 +1,9 @@
 //! A part file, or a draft of one, as a document and as a report.
 
+use super::drawing::allowed;
 use schemars::JsonSchema;
 use serde::Serialize;
-use trueaxis_part::part::{Characteristic, Feature, Limits, Part};
+use trueaxis_part::part::{Characteristic, Feature, Part};
 use trueaxis_part::qif;
 use trueaxis_report::{Report, Section, Standing, Table};
 
@@ -90,10 +91,7 @@ impl<'a> PartFileDocument<'a> {
             points: f.points.len(),
         };
         let characteristic = |c: &'a Characteristic| {
-            let (low_mm, high_mm) = match c.limits {
-                Limits::Zone { tolerance_mm } => (None, tolerance_mm),
-                Limits::Size { low_mm, high_mm } => (Some(low_mm), high_mm),
-            };
+            let (low_mm, high_mm) = c.limits.ends_mm();
             PartCharacteristicEntry {
                 name: &c.name,
                 kind: c.kind.key(),
@@ -144,14 +142,7 @@ pub fn part_report(part: &Part) -> Report<'_> {
     };
     let features =
         Table::new(["feature", "shape", "datum", "points"]).rows(part.features.iter().map(feature));
-    let um = |mm: f64| format!("{:.2}", 1e3 * mm);
-    let characteristic = |c: &Characteristic| {
-        let allowed = match c.limits {
-            Limits::Zone { tolerance_mm } => um(tolerance_mm),
-            Limits::Size { low_mm, high_mm } => format!("{} … {}", um(low_mm), um(high_mm)),
-        };
-        [c.name.clone(), allowed]
-    };
+    let characteristic = |c: &Characteristic| [c.name.clone(), allowed(&c.limits)];
     let asked = Table::new(["characteristic", "allowed, µm"])
         .rows(part.characteristics.iter().map(characteristic));
     Report::new(&part.name)

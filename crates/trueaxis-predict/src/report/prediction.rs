@@ -107,14 +107,9 @@ fn index_row(prediction: &Prediction, index: &Index, [sampled, guarded]: [bool; 
     }
     let judged = prediction.verdict.judgements.iter().find(|j| j.index.key == index.name.key);
     if let Some(j) = judged {
-        let verdict = match j.outcome {
-            Outcome::Pass => "pass",
-            Outcome::Fail => "fail",
-            Outcome::Undecided => "undecided",
-        };
         let used = format!("{:.0} %", j.used_ratio * 100.0);
         row.extend(guarded.then(|| j.expanded_mm.map_or(String::new(), um)));
-        row.extend([um(j.limit_mm), used, verdict.to_owned()]);
+        row.extend([um(j.limit_mm), used, j.outcome.word().to_owned()]);
     }
     row
 }
@@ -139,11 +134,7 @@ fn conditions<'a>(prediction: &Prediction) -> Option<Section<'a>> {
         let [low, high] = c.speed_mm_per_s.map(|v| format!("{:.1}", v * 0.06));
         let speed = if low == high { low } else { format!("{low} … {high}") };
         let feed = c.condition.feed_mm_per_min.unwrap_or(0.0) * 1e-3;
-        let verdict = match c.verdict.outcome {
-            Outcome::Pass => "pass",
-            Outcome::Fail => "fail",
-            Outcome::Undecided => "undecided",
-        };
+        let verdict = c.verdict.outcome.word();
         let values = decisive(prediction).flat_map(|(i, index)| {
             let adds = c.indices_mm[i] - index.value_mm;
             [um(c.indices_mm[i]), um(c.u_mm[i]), um(adds), um(c.servo_alone_mm[i])]

@@ -11,7 +11,7 @@ use trueaxis_machine::axis::{Axis, Command};
 use trueaxis_machine::describe::shown;
 use trueaxis_machine::errors::ErrorKind;
 use trueaxis_part::testpiece::IndexName;
-use trueaxis_part::tolerance::{Judgement, Outcome};
+use trueaxis_part::tolerance::Judgement;
 use trueaxis_report::Keyed;
 
 /// A test piece before it is cut: `trueaxis/predict/1`.
@@ -113,7 +113,7 @@ impl<'a> ConditionEntry<'a> {
             feed_mm_per_min: result.condition.feed_mm_per_min.unwrap_or(0.0),
             tip_mm_per_min: result.speed_mm_per_s.map(|v| v * 60.0),
             indices: prediction.indices.iter().enumerate().map(index).collect(),
-            verdict: word(result.verdict.outcome),
+            verdict: result.verdict.outcome.word(),
         }
     }
 }
@@ -275,7 +275,7 @@ impl<'a> PredictionDocument<'a> {
             study: &study.name,
             machine: MachineEntry { name: study.machine.name(), chain: study.machine.chain_text() },
             test_piece: &study.test_piece.name,
-            verdict: word(prediction.outcome()),
+            verdict: prediction.outcome().word(),
             indices: grouped(prediction.indices.iter().map(|i| (i.name, IndexEntry::from(i)))),
             judgements: prediction.verdict.judgements.iter().map(JudgementEntry::from).collect(),
             setting_command: command(axes, &prediction.setting_command),
@@ -309,14 +309,6 @@ impl<'a> PredictionDocument<'a> {
                 .collect(),
             warnings: &prediction.warnings,
         }
-    }
-}
-
-fn word(outcome: Outcome) -> &'static str {
-    match outcome {
-        Outcome::Pass => "pass",
-        Outcome::Fail => "fail",
-        Outcome::Undecided => "undecided",
     }
 }
 
@@ -372,7 +364,7 @@ impl From<&Judgement> for JudgementEntry<'_> {
             expanded_mm: j.expanded_mm,
             used_ratio: j.used_ratio,
             decisive: j.index.decisive,
-            verdict: word(j.outcome),
+            verdict: j.outcome.word(),
         }
     }
 }

@@ -17,15 +17,6 @@ use trueaxis_part::tolerance::Outcome;
 use trueaxis_report::numbers::{fixed, rounded};
 use trueaxis_report::{Columns, Report, Section, Standing, Table};
 
-/// An outcome in one word.
-pub(super) fn word(outcome: Outcome) -> &'static str {
-    match outcome {
-        Outcome::Pass => "pass",
-        Outcome::Fail => "fail",
-        Outcome::Undecided => "undecided",
-    }
-}
-
 /// A verdict in its colour.
 pub(super) fn standing(outcome: Outcome) -> Standing {
     match outcome {
@@ -59,7 +50,7 @@ pub fn certificate_report<'a>(study: &'a Study, certificate: &'a Certificate) ->
     let sections = topics.into_iter().enumerate().map(|(i, (title, topic))| {
         topic(study, certificate, Section::new(format!("{}. {title}", i + 1)))
     });
-    let word = word(certificate.outcome).to_uppercase();
+    let word = certificate.outcome.word().to_uppercase();
     let head = study.head.as_ref().map(|head| {
         let (lines, instruments) = head.shown();
         paragraphs(Section::new("Certificate"), lines).table(instruments)
@@ -402,7 +393,7 @@ fn pose_row(study: &Study, axes: &[Axis], p: &PoseResult) -> Vec<String> {
         format!("{:.1}", p.within_mm * 1e3),
         format!("{:.2}", p.e_n[0]),
         format!("{:.2}", p.e_n[1]),
-        word(p.outcome).to_owned(),
+        p.outcome.word().to_owned(),
     ];
     place(axes, &p.measured.command).into_iter().chain(figures).collect()
 }

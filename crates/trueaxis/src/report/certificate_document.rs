@@ -1,6 +1,6 @@
 //! The document `trueaxis/certificate/1`.
 
-use super::certificate::{largest, rule, scope, word};
+use super::certificate::{largest, rule, scope};
 use super::trace_document::{MachineEntry, axes};
 use crate::verify::certificate::applied::AppliedCompensation;
 use crate::verify::certificate::inputs::Input;
@@ -301,7 +301,7 @@ impl<'a> CertificateDocument<'a> {
             schema: "trueaxis/certificate/1",
             version: trueaxis_report::VERSION,
             name: &study.name,
-            verdict: word(certificate.outcome),
+            verdict: certificate.outcome.word(),
             reason: &certificate.reason,
             certificate: study.head.as_ref(),
             machine: MachineEntry { name: machine.name(), chain: machine.chain_text() },
@@ -456,7 +456,7 @@ impl CertifiedPoseEntry {
             length_after_um,
             predicted_within_um: p.within_mm * 1e3,
             e_n: states(p.e_n, |e| e),
-            verdict: word(p.outcome),
+            verdict: p.outcome.word(),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! A comparison of readings with a prediction, as text and page.
 
-use super::certificate::{standing, word};
+use super::certificate::standing;
 use crate::verify::compare::{
     Comparison, ComparisonBasis, ComparisonResult, Coverage, Rule, Summary,
 };
@@ -60,7 +60,7 @@ pub fn comparison_report<'a>(task: &'a Comparison, verified: &'a ComparisonResul
         (0..instrument.sight.channels()).map(|channel| (part.index, channel))
     });
     let pictures = channels.map(|(of, channel)| picture(task, verified, of, channel));
-    let word = word(verified.outcome).to_uppercase();
+    let word = verified.outcome.word().to_uppercase();
     Report::new(&task.name)
         .line(format!("{} readings {against}", verified.readings.len()))
         .line(format!("rule: {}", rule(task)))

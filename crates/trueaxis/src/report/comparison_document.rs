@@ -1,6 +1,5 @@
 //! The document `trueaxis/verify/1`.
 
-use super::certificate::word;
 use super::comparison::rule;
 use crate::verify::compare::{
     Comparison, ComparisonBasis, ComparisonResult, Coverage, Deviation, Summary,
@@ -131,7 +130,7 @@ impl<'a> VerifyDocument<'a> {
             readings: verified.readings.len(),
             coverage_factor: task.decision.coverage_factor,
             rule: rule(task),
-            verdict: word(verified.outcome),
+            verdict: verified.outcome.word(),
             pass,
             fail,
             undecided,

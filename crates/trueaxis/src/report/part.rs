@@ -1,6 +1,6 @@
 //! Measured parts against their tolerances and their prediction, as text and page.
 
-use super::certificate::{standing, word};
+use super::certificate::standing;
 use crate::verify::part::{
     IndexComparison, Measurements, PartResult, PartSections, PartStudy, PredictionSource,
 };
@@ -56,7 +56,11 @@ pub fn part_report<'a>(task: &'a PartStudy, found: &'a PartResult) -> Report<'a>
         .line(format!("measured: {}", measured_words(task, found)))
         .line(format!("predicted: {}", prediction_words(task)))
         .line(format!("rule: {}", rule(task)))
-        .verdict(standing(found.outcome), word(found.outcome).to_uppercase(), found.reason.clone());
+        .verdict(
+            standing(found.outcome),
+            found.outcome.word().to_uppercase(),
+            found.reason.clone(),
+        );
     head.section(Section::new("Warnings").list(found.warnings.iter().cloned()))
         .section(Section::new("The parts").table(values(found)))
         .section(Section::new("Measured and predicted").table(agreement(found)))

@@ -1,6 +1,5 @@
 //! The document `trueaxis/verify-part/1`.
 
-use super::certificate::word;
 use super::part::{predicted_at, prediction_words, rule};
 use crate::verify::part::{IndexComparison, PartResult, PartSections, PartStudy};
 use schemars::JsonSchema;
@@ -121,7 +120,7 @@ impl<'a> VerifyPartDocument<'a> {
             parts: found.count,
             coverage_factor: task.rule.coverage_factor,
             rule: rule(task),
-            verdict: word(found.outcome),
+            verdict: found.outcome.word(),
             reason: &found.reason,
             best_fit: task.is_best_fit(),
             indices: found.indices.iter().map(PartIndexEntry::of).collect(),
@@ -151,7 +150,7 @@ impl<'a> PartIndexEntry<'a> {
             e_n: normalised,
             agrees: normalised.map(|n| n <= 1.0),
             tolerance_mm: index.limit_mm,
-            verdicts: index.outcomes.iter().map(|o| word(*o)).collect(),
+            verdicts: index.outcomes.iter().map(|o| o.word()).collect(),
             note: &index.note,
         }
     }

@@ -14,7 +14,7 @@ import {
 } from "three";
 import { download, fill, h } from "../../dom.ts";
 import { diverging, divergingDark } from "../../figure/colours.ts";
-import { csvOf, roundNumber } from "../../figure/figure.ts";
+import { csvOf, finelyRounded, roundNumber } from "../../figure/figure.ts";
 import { factor, number } from "../../format.ts";
 import type { Frame } from "../../frame.ts";
 import { MachineView } from "../../scene/view.ts";
@@ -84,7 +84,7 @@ export class DeviationMap {
     const deviations = frame.f32("deviation_um");
     const worst = this.worst();
     const most = Math.max(1e-6, Math.abs(deviations[worst] ?? 0));
-    this.range = rounded(most);
+    this.range = finelyRounded(most);
     // At the end of the slider the greatest deviation is a tenth of the part.
     this.most = Math.max(1, roundNumber((0.1 * extent(frame.f32("places_mm"))) / (most / 1e3)));
     this.build(deviations.length);
@@ -218,12 +218,6 @@ export class DeviationMap {
     this.view.requestRender();
   }
 }
-
-/** A round number not below, finer than 1, 2, 5. */
-const rounded = (x: number): number => {
-  const power = 10 ** Math.floor(Math.log10(x));
-  return [1, 1.5, 2, 3, 4, 5, 6, 8, 10].map((m) => m * power).find((m) => m >= x) ?? x;
-};
 
 /** The diagonal of the box around places. */
 function extent(places: Float32Array): number {

@@ -13,7 +13,7 @@ import {
 } from "three";
 import { download, h } from "../../dom.ts";
 import { diverging, divergingDark } from "../../figure/colours.ts";
-import { csvOf, roundNumber } from "../../figure/figure.ts";
+import { csvOf, finelyRounded, roundNumber } from "../../figure/figure.ts";
 import { deg, factor, number, um } from "../../format.ts";
 import { MachineView } from "../../scene/view.ts";
 import { cssColour, isDark, onTheme } from "../../theme.ts";
@@ -87,10 +87,10 @@ export class PieceView {
       const radius = Math.max(...frame.header.sections.map((s) => s.radius_mm));
       // At the end of the slider the greatest error is about half of the radius.
       this.most = roundNumber((radius / (most / 1e3)) * 0.4);
-      this.range = rounded(most);
+      this.range = finelyRounded(most);
       this.slider.value = String(AT_FIRST);
       this.k = this.factorAt(AT_FIRST);
-    } else if (most > this.range || most < 0.2 * this.range) this.range = rounded(most);
+    } else if (most > this.range || most < 0.2 * this.range) this.range = finelyRounded(most);
     this.draw();
     if (!fresh) return;
     this.view.setMachine({ links: [], models: [], tool: { length_mm: 0, diameter_mm: null } });
@@ -211,12 +211,6 @@ export class PieceView {
     this.top.material.color.set(cssColour("--scene-linear"));
   }
 }
-
-/** A round number not below, finer than 1, 2, 5. */
-const rounded = (x: number): number => {
-  const power = 10 ** Math.floor(Math.log10(x));
-  return [1, 1.5, 2, 3, 4, 5, 6, 8, 10].map((m) => m * power).find((m) => m >= x) ?? x;
-};
 
 const roundTo2 = (k: number): number => {
   const power = 10 ** Math.max(0, Math.floor(Math.log10(k)) - 1);

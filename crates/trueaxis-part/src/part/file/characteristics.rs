@@ -46,7 +46,7 @@ pub(super) fn read_characteristic(
             let members: Vec<usize> =
                 (0..features.len()).filter(|i| is_member(&features[*i])).collect();
             match members.is_empty() {
-                true => named("of", word).map(|one| (word, vec![one])),
+                true => named("of", word).map(|one| (features[one].name.as_str(), vec![one])),
                 false => Some((word, members)),
             }
         });
@@ -70,11 +70,6 @@ pub(super) fn read_characteristic(
         let is_pattern = members.len() > 1;
         Asked { section, features, kind, of: &features[*member], is_pattern }.check(&datums)?;
     }
-    let of = features[members[0]]
-        .pattern
-        .as_deref()
-        .filter(|p| *p == of)
-        .unwrap_or(&features[members[0]].name);
     let name = name.unwrap_or_else(|| {
         let labels: Vec<&str> = datums.iter().map(|d| features[*d].label()).collect();
         match labels[..] {

@@ -26,8 +26,7 @@ impl Opening {
 }
 
 /// `openings = [{ at = "35 15 0 mm", diameter = "32 mm" }, { at = "-25 0 0 mm", size = "52 32 mm" }]`.
-pub(super) fn openings(section: &Section<'_>, geometry: &Geometry) -> Option<Vec<Opening>> {
-    let Some(item) = section.get("openings") else { return Some(Vec::new()) };
+pub(super) fn read_openings(item: &Item<'_>, geometry: &Geometry) -> Option<Vec<Opening>> {
     let Geometry::Plane { normal, along, .. } = *geometry else {
         let message = "only a plane has `openings`".to_owned();
         item.error("wrong-feature", message, "divide the feature, or take a table of points");

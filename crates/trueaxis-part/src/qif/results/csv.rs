@@ -2,14 +2,13 @@
 
 use super::{Found, check};
 use crate::Error;
-use crate::part::{Limits, Part};
-use crate::tolerance::Outcome;
+use crate::part::Part;
 
 const HEADINGS: &str =
     "characteristic,kind,feature,datums,value_mm,u_mm,low_mm,high_mm,used,outcome\n";
 
 /// A row for each characteristic: values and limits as the part file has them, of a size its deviations; `low_mm` of a zone is empty.
-/// `used` is the share of the tolerance ([`Limits::used`]), unit: 1. Numbers have all their digits. Cells are quoted as RFC 4180
+/// `used` is the share of the tolerance ([`crate::part::Limits::used`]), unit: 1. Numbers have all their digits. Cells are quoted as RFC 4180
 /// asks, lines end with a line feed as in all tables of this project. A name that a spreadsheet would take for a formula begins
 /// with an apostrophe.
 ///
@@ -20,17 +19,10 @@ pub fn results_csv(part: &Part, found: &[Found]) -> Result<String, Error> {
     let mut text = HEADINGS.to_owned();
     for (asked, found) in part.characteristics.iter().zip(found) {
         let datums: Vec<&str> = asked.datums.iter().map(|d| part.features[*d].label()).collect();
-        let (low, high_mm) = match asked.limits {
-            Limits::Zone { tolerance_mm } => (String::new(), tolerance_mm),
-            Limits::Size { low_mm, high_mm } => (low_mm.to_string(), high_mm),
-        };
-        let outcome = match found.outcome {
-            Outcome::Pass => "pass",
-            Outcome::Fail => "fail",
-            Outcome::Undecided => "undecided",
-        };
+        let (low_mm, high_mm) = asked.limits.ends_mm();
+        let low = low_mm.map_or(String::new(), |v| v.to_string());
         text += &format!(
-            "{},{},{},{},{},{},{low},{high_mm},{},{outcome}\n",
+            "{},{},{},{},{},{},{low},{high_mm},{},{}\n",
             cell(&asked.name),
             asked.kind.key(),
             cell(&asked.of),
@@ -38,6 +30,7 @@ pub fn results_csv(part: &Part, found: &[Found]) -> Result<String, Error> {
             found.value_mm,
             found.u_mm,
             asked.limits.used(found.value_mm),
+            found.outcome.word(),
         );
     }
     Ok(text)

@@ -154,20 +154,8 @@ pub(super) fn values(
     let evaluate = |deviation_mm: &[f64]| part.evaluate(deviation_mm).map_err(|e| e.to_string());
     let actual = evaluate(deviations)?;
     let nominal = evaluate(by_program)?;
-    let quantities = study.mounted.uncertain_quantities();
-    // From one standard uncertainty below to one above.
-    let uncertain = |shift: &Vec<f64>| {
-        let [above, below] = [0.5, -0.5].map(|half| added(deviations, shift, half));
-        Ok::<_, String>([evaluate(&above)?, evaluate(&below)?])
-    };
-    let shifts = all.uncertain_shifts(&quantities);
-    let ends: Vec<[Vec<f64>; 2]> = shifts.par_iter().map(uncertain).collect::<Result<_, _>>()?;
-    let mut variance = vec![0.0; actual.len()];
-    for [above, below] in ends {
-        for ((sum, a), b) in variance.iter_mut().zip(above).zip(below) {
-            *sum += (0.5 * (a - b)).powi(2);
-        }
-    }
+    let shifts = all.uncertain_shifts(&study.mounted.uncertain_quantities());
+    let u_mm = propagated(part, deviations, &shifts)?;
     let drawn =
         study.sampling.map(|s| many(part, (deviations, &shifts), s, progress)).transpose()?;
     let stated = study.mounted.stated_errors();
@@ -177,18 +165,15 @@ pub(super) fn values(
         .par_iter()
         .map(|shifts| evaluate(&added(deviations, shifts, 1.0)))
         .collect::<Result<_, _>>()?;
-    let names: Vec<ErrorName> = stated.iter().map(|(_, name)| *name).collect();
-    let mut effects: Vec<Vec<ErrorEffect>> = vec![Vec::new(); actual.len()];
-    for ((_, error), without) in stated.iter().zip(without) {
-        for (list, without_mm) in effects.iter_mut().zip(without) {
-            list.push(ErrorEffect { error: *error, without_mm });
-        }
-    }
     let value = |(i, asked): (usize, &part::Characteristic)| {
-        let (value_mm, u_mm) = (actual[i], variance[i].sqrt());
-        let effect = |e: &ErrorEffect| (value_mm - e.without_mm).abs();
-        let mut errors = effects[i].clone();
-        errors.sort_by(|a, b| effect(b).total_cmp(&effect(a)));
+        let (value_mm, u_mm) = (actual[i], u_mm[i]);
+        let of = |((_, error), without): (&(ErrorIndex, ErrorName), &Vec<f64>)| ErrorEffect {
+            error: *error,
+            without_mm: without[i],
+        };
+        let mut errors: Vec<ErrorEffect> = stated.iter().zip(&without).map(of).collect();
+        let change = |e: &ErrorEffect| (value_mm - e.without_mm).abs();
+        errors.sort_by(|a, b| change(b).total_cmp(&change(a)));
         PartValue {
             value_mm,
             u_mm,
@@ -199,9 +184,26 @@ pub(super) fn values(
         }
     };
     let values = part.characteristics.iter().enumerate().map(value).collect();
-    let at = |point: usize| largest(names.iter().zip(&absent).map(|(n, s)| (*n, -s[point])));
+    let at = |point: usize| {
+        largest(stated.iter().zip(&absent).map(|((_, name), shifts)| (*name, -shifts[point])))
+    };
     let effects = (0..nails.len()).into_par_iter().map(at).collect();
     Ok(Judged { values, drawn, effects })
+}
+
+/// Standard uncertainties of the characteristics, by shifts from one standard uncertainty of each quantity below to one above.
+fn propagated(
+    part: &part::Part,
+    deviations: &[f64],
+    shifts: &[Vec<f64>],
+) -> Result<Vec<f64>, String> {
+    let evaluate = |shift: &[f64], half: f64| {
+        part.evaluate(&added(deviations, shift, half)).map_err(|e| e.to_string())
+    };
+    let ends = |shift: &Vec<f64>| Ok([evaluate(shift, 0.5)?, evaluate(shift, -0.5)?]);
+    let ends: Vec<[Vec<f64>; 2]> = shifts.par_iter().map(ends).collect::<Result<_, String>>()?;
+    let variance = |i: usize| ends.iter().map(|[a, b]| (0.5 * (a[i] - b[i])).powi(2)).sum::<f64>();
+    Ok((0..part.characteristics.len()).map(|i| variance(i).sqrt()).collect())
 }
 
 /// The errors that displace a point most; those below a thousandth of the largest are not named.
