@@ -246,6 +246,13 @@ impl Motion {
         (least.distance_mm <= slack_mm).then(|| least.entry(at_mm))
     }
 
+    /// The direction out of an edge that lies on the nail: as a place a hair below the entry sees it.
+    pub fn out_of_edge(&self, cutter: &Cutter, nail: &Line, entry: &Entry) -> Vec3 {
+        const HAIR_MM: f64 = 1e-6;
+        let below = nail.at(entry.at_mm - HAIR_MM);
+        self.at(cutter, &below, entry.place).0.gradient
+    }
+
     #[inline]
     fn tangent(&self, cutter: &Cutter, point: &Vec3, place: f64) -> Tangent {
         let (seen, change) = self.at(cutter, point, place);

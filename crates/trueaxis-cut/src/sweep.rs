@@ -12,6 +12,8 @@ use trueaxis_geometry::{Vec3, angle};
 pub const BOUND_MM: f64 = 1e-4;
 /// Entries so close to each other count as equal: the first move is named.
 const EQUAL_MM: f64 = 1e-9;
+/// A face that stands steeper to the nail than this does not end it. Unit: 1.
+const GRAZING: f64 = 1e-6;
 /// Neighbours among so many nails help each other; the answer never depends on the number of threads.
 const CHUNK: usize = 256;
 /// A motion turns by no more than this: a straight change of the components of its axis is a constant rate to some nm.
@@ -222,14 +224,23 @@ impl Search<'_> {
             let motion = &self.sweeps[*s].motions[*motion];
             (*s, motion.of, motion.place_of_move(entry.place))
         };
-        let first = self.found.iter().min_by(|a, b| {
+        // Where a move ends with an edge on the nail, the next one comes equally low with its face.
+        let faces = |(entry, ..): &&(Entry, usize, usize)| entry.out.dot(&nail.normal) < -GRAZING;
+        let is_faced = self.found.iter().any(|found| faces(&found));
+        let faced = self.found.iter().filter(|found| !is_faced || faces(found));
+        let first = faced.min_by(|a, b| {
             let (a, b) = (key(a), key(b));
             (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2))
         });
         let Some((entry, s, motion)) = first else { return Reach::NotCut };
         self.last = Some((*s, *motion));
-        let motion = &self.sweeps[*s].motions[*motion];
+        let sweep = &self.sweeps[*s];
+        let motion = &sweep.motions[*motion];
         let pose = motion.pose_at(entry.place);
+        let out = match is_faced {
+            true => entry.out,
+            false => motion.out_of_edge(&sweep.cutter, &Line::of(nail), entry),
+        };
         let cut = Cut {
             deviation_mm: entry.at_mm,
             sweep: *s,
@@ -237,7 +248,7 @@ impl Search<'_> {
             place: motion.place_of_move(entry.place),
             tip_mm: pose.tip_mm,
             axis: pose.axis,
-            out: entry.out,
+            out,
         };
         if entry.at_mm <= -nail.below_mm { Reach::Deeper(cut) } else { Reach::Cut(cut) }
     }

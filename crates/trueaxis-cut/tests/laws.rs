@@ -398,3 +398,26 @@ fn bad_cutters_and_paths_are_refused_by_name() {
     let none = Sweep::new(ball, []).expect("an empty path");
     assert_eq!(cut(&[none], &[nail(0.0, 0.0, 0.0, Vec3::z())]), [Reach::NotCut]);
 }
+
+/// A flat end that plunges in four steps: where a step ends at the very height of a nail its corner lies on the nail, and the side that comes next
+/// is what cuts it. A tool that is displaced by 1 µm towards the wall takes 1 µm of it, whatever it does across and along.
+#[test]
+fn law_a_corner_on_a_nail_cuts_with_its_side() {
+    let steps: Vec<[ToolPose; 2]> = (0..4)
+        .map(|k| [k, k + 1].map(|k| pose(9.0, 0.0, -4.0 * f64::from(k), Vec3::z())))
+        .collect();
+    let sweep = sweep(Cutter::flat(12.0, 30.0).expect("a cutter"), &steps);
+    for height in [-2.0, -4.0, -7.9, -8.0, -12.0, -16.0] {
+        for hair in [0.0, 1e-13, -1e-13, 1e-12, -1e-12, 1e-9, 1e-6] {
+            if height + hair < -16.0 {
+                // Below the end of the last step nothing is cut.
+                continue;
+            }
+            let wall = nail(15.0, 0.0, height + hair, -Vec3::x());
+            let cut = one(std::slice::from_ref(&sweep), wall);
+            assert!(cut.deviation_mm.abs() < 1e-9, "{height} {hair}: {cut:?}");
+            let shift = cut.shift_mm(&wall, &Vec3::new(1e-3, 2e-3, 3e-3), &Vec3::zeros());
+            assert!((shift + 1e-3).abs() < 1e-8, "{height} {hair}: {shift} {cut:?}");
+        }
+    }
+}

@@ -110,6 +110,30 @@ fn law_the_middle_of_a_tongue_as_datum() {
     near(values(&slot, &narrow)[0], 6e-3, 1e-8);
 }
 
+/// A keyway whose sides lie 3 µm off, 10 to 15 mm from the axis of its shaft: the zone turns about the axis until both ends are equally far off,
+/// 3 µm · (b − a)/(b + a), a and b the distances of its outermost rows from the axis.
+#[test]
+fn law_a_keyway_is_symmetrical_about_an_axis() {
+    let text = "name = \"p\"\n[feature.shaft]\ncylinder = { at = \"-40 0 0 mm\", axis = \"1 0 0\", diameter = \"30 mm\", length = \"80 mm\" }\n\
+        [feature.keyway]\nslot = { at = \"0 0 12.5 mm\", across = \"0 1 0\", along = \"1 0 0\", width = \"8 mm\", size = \"30 5 mm\" }\nspacing = \"1 mm\"\n"
+        .to_owned()
+        + &asked("symmetry", "keyway", "shaft");
+    let off = |f: &Feature, p: &SurfacePoint| match f.name.as_str() {
+        "keyway" => 3e-3 * p.normal.y,
+        _ => 0.0,
+    };
+    let (a, b) = (10.5, 14.5);
+    near(values(&text, &off)[0], 2.0 * 3e-3 * (b - a) / (b + a), 1e-8);
+    // Turned about the axis, and moved with its shaft: nothing.
+    let turned = |f: &Feature, p: &SurfacePoint| match f.name.as_str() {
+        "keyway" => (Vec3::x().cross(&p.point_mm) * 2e-4).dot(&p.normal),
+        _ => 0.0,
+    };
+    near(values(&text, &turned)[0], 0.0, 1e-8);
+    let shifted = |_: &Feature, p: &SurfacePoint| 4e-3 * p.normal.y;
+    near(values(&text, &shifted)[0], 0.0, 2e-6);
+}
+
 /// Four holes on a circle of 40 mm. All moved alike: nothing where they may float; to datums that hold them, twice the shift. One moved by 8 µm
 /// along the radius: 8 µm of position instead of 16, since the pattern goes half of the way; the circle of all 8 µm larger: 16 µm.
 #[test]

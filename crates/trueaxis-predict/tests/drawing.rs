@@ -499,6 +499,52 @@ fn law_a_side_as_facets() {
     refused(&[("p.toml", &inches), ("p.stl", &stl)], "not-cut");
 }
 
+/// Surfaces of the program between others: each has its own points and what the nominal cut leaves of them, in whatever order they are.
+#[test]
+fn law_the_order_of_features_does_not_matter() {
+    let features = [
+        (
+            "side",
+            "programmed = { at = \"64 0 -10 mm\", normal = \"1 0 0\", along = \"0 1 0\", size = \"60 16 mm\", depth = \"8 mm\" }",
+        ),
+        (
+            "bore",
+            "hole = { at = \"0 0 -2 mm\", axis = \"0 0 -1\", diameter = \"30 mm\", length = \"16 mm\" }",
+        ),
+        (
+            "front",
+            "programmed = { at = \"0 -44 -10 mm\", normal = \"0 -1 0\", along = \"1 0 0\", size = \"80 16 mm\", depth = \"8 mm\" }",
+        ),
+        (
+            "left_out",
+            "plane = { at = \"0 -40.01 -10 mm\", normal = \"0 -1 0\", along = \"1 0 0\", size = \"60 12 mm\" }",
+        ),
+    ];
+    let machine = mill("EC0Y = \"100 urad\"");
+    let found = |order: [usize; 4]| {
+        let mut part = "name = \"p\"\n".to_owned();
+        for (name, shape) in order.map(|i| features[i]) {
+            part += &format!(
+                "[feature.{name}]\n{shape}\nspacing = \"5 mm\"\n[[characteristic]]\nprofile = \"10 um\"\nof = \"{name}\"\n"
+            );
+        }
+        let found = predicted(&[("p.toml", &part), ("m.toml", &machine)]);
+        let mut all: Vec<(usize, f64, f64, usize)> = order
+            .into_iter()
+            .zip(found.values.iter().zip(&found.features))
+            .map(|(i, (v, f))| (i, v.value_mm, v.nominal_mm, f.points.len()))
+            .collect();
+        all.sort_by_key(|(i, ..)| *i);
+        all
+    };
+    let due = found([0, 1, 2, 3]);
+    // The plane that lies 10 µm outside of what the program cuts has 10 µm too little.
+    assert!((due[3].2 - 20e-3).abs() < 1e-6 && due[0].2 < 1e-9, "{due:?}");
+    for order in [[3, 2, 1, 0], [1, 0, 3, 2], [2, 3, 0, 1]] {
+        assert_eq!(found(order), due);
+    }
+}
+
 /// A drill of 90° leaves a cone of 90°, a cutter whose side stands at 45° a chamfer, whatever their diameters say about a flat end.
 #[test]
 fn law_drills_and_tapers_leave_their_shapes() {

@@ -1,4 +1,4 @@
-//! The place of a pattern as a whole, ISO 5458.
+//! The place of a pattern as a whole, ISO 5458; of the middle of a slot alone.
 
 use super::Geometry;
 use super::datum::{DatumFrame, held};

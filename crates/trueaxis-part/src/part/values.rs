@@ -97,7 +97,7 @@ fn value<'p>(
     surfaces: &[Surface<'_>],
     systems: &mut Systems<'p>,
 ) -> Result<f64, Error> {
-    if let (Kind::Position, [_, _, ..]) = (asked.kind, &asked.features[..]) {
+    if asked.kind == Kind::Position && asked.features.len() > 1 {
         let members: Vec<&Surface<'_>> = asked.features.iter().map(|f| &surfaces[*f]).collect();
         return pattern::position(&members, &systems.frame(surfaces, &asked.datums)?);
     }
@@ -128,9 +128,9 @@ fn of_one<'p>(
         Kind::Diameter => surface.diameter(),
         Kind::Width => surface.width(),
         Kind::Profile => surface.profile(&systems.frame(surfaces, &asked.datums)?),
-        Kind::Position | Kind::Symmetry => {
-            surface.position(&systems.frame(surfaces, &asked.datums)?)
-        }
+        Kind::Position => surface.position(&systems.frame(surfaces, &asked.datums)?),
+        // About an axis the zone may turn, as a pattern does.
+        Kind::Symmetry => pattern::position(&[surface], &systems.frame(surfaces, &asked.datums)?),
         Kind::Parallelism if is_single => surface.oriented(&datum()?, true),
         Kind::Perpendicularity if is_single => surface.oriented(&datum()?, false),
         Kind::Parallelism | Kind::Perpendicularity | Kind::Angularity => {

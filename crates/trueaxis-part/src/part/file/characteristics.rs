@@ -364,8 +364,13 @@ impl Asked<'_, '_> {
 
     /// Nothing that the datums leave free moves the zone.
     fn check_place(&self, free: &Freedom) -> Option<()> {
-        // A pattern is laid where it fits best, as a whole (ISO 5458).
-        if !self.kind.is_located() || self.is_pattern && self.kind == Kind::Position {
+        // A pattern is laid where it fits best, as a whole (ISO 5458); the middle of a slot about an axis, too.
+        let floats = match self.kind {
+            Kind::Position => self.is_pattern,
+            Kind::Symmetry => true,
+            _ => false,
+        };
+        if !self.kind.is_located() || floats {
             return Some(());
         }
         match free.moving(&held(self.of)).twists().first() {
