@@ -9893,6 +9893,10 @@ export interface CharacteristicEntry {
    */
   u_mm: number;
   /**
+   * By how much the value changes with half of the points, mm.
+   */
+  points_mm: number;
+  /**
    * The value that the program leaves on a machine without errors, mm.
    */
   nominal_mm: number;

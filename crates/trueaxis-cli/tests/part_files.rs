@@ -51,10 +51,14 @@ fn results_are_those_of_the_prediction() {
     let text = fs::read_to_string(&qif).expect("the document");
     for (row, one) in rows.iter().zip(asked) {
         assert_eq!(row[0], one["name"].as_str().expect("a name"));
-        for (cell, key) in [(4, "value_mm"), (5, "u_mm"), (7, "high_mm"), (8, "used_ratio")] {
+        for (cell, key) in [(4, "value_mm"), (7, "high_mm"), (8, "used_ratio")] {
             let (cell, due) = (row[cell].parse::<f64>().expect("a number"), one[key].as_f64());
             assert_eq!(Some(cell), due, "{key} of {row:?}");
         }
+        // The u of a result is that of the machine and of the points, eq. 323.
+        let [u, points] = ["u_mm", "points_mm"].map(|key| one[key].as_f64().expect("a number"));
+        let found = row[5].parse::<f64>().expect("a number");
+        assert!((found - u.hypot(points / 3f64.sqrt())).abs() < 1e-12, "{row:?}");
         assert_eq!(row[9], one["outcome"].as_str().expect("an outcome"));
     }
     assert_eq!(text.matches("combinedUncertainty=\"").count(), asked.len());

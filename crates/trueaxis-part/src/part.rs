@@ -14,7 +14,7 @@ mod values;
 
 pub use characteristic::{Characteristic, Kind, Limits};
 pub(crate) use feature::across;
-pub use feature::{Feature, Geometry};
+pub use feature::{Feature, Geometry, Sampled, every_second};
 
 /// A checked part file.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,6 +3,8 @@
 mod moved;
 mod sampled;
 
+pub use sampled::{Sampled, every_second};
+
 use std::ops::Range;
 use trueaxis_form::{Element, Shape};
 use trueaxis_geometry::Vec3;
@@ -124,6 +126,9 @@ pub struct Feature {
     pub geometry: Geometry,
     /// Points on it with the normals out of the material.
     pub points: Vec<SurfacePoint>,
+    /// Which points remain with every second row, with the other rows, with every second point of each row, and with the others; of a
+    /// table with every second point and with the others.
+    pub is_kept: Vec<[bool; 4]>,
     /// Which points make a section across the axis; none on planes and tables.
     pub sections: Vec<Range<usize>>,
     /// How far into the material it is looked; on a thin wall less than half of it.
@@ -133,6 +138,26 @@ pub struct Feature {
 }
 
 impl Feature {
+    /// With half of its rows (0, 1), or with half of the points of each (2, 3).
+    pub(super) fn thinned(&self, way: usize) -> Self {
+        let kept = |range: Range<usize>| range.filter(|i| self.is_kept[*i][way]);
+        let points: Vec<SurfacePoint> =
+            kept(0..self.points.len()).map(|i| self.points[i]).collect();
+        let mut from = 0;
+        let section = |range: &Range<usize>| {
+            let count = kept(range.clone()).count();
+            from += count;
+            from - count..from
+        };
+        let sections = self.sections.iter().map(section).filter(|s| !s.is_empty());
+        Self {
+            sections: sections.collect(),
+            is_kept: vec![[true; 4]; points.len()],
+            points,
+            ..self.clone()
+        }
+    }
+
     /// Its letter as a datum, else its name.
     pub fn label(&self) -> &str {
         self.letter.as_deref().unwrap_or(&self.name)

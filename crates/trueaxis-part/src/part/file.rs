@@ -7,13 +7,12 @@ mod repeat;
 mod shapes;
 
 use super::feature::MOST_POINTS;
-use super::{Characteristic, Feature, Geometry, Part};
+use super::{Characteristic, Feature, Geometry, Part, Sampled};
 use characteristics::read_characteristic;
 use mesh::read_mesh;
 use openings::read_openings;
 use repeat::repeated;
 use shapes::{SHAPES, read_geometry, usual_spacing};
-use std::ops::Range;
 use std::path::Path;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::surface::SurfacePoint;
@@ -128,20 +127,21 @@ fn read_feature(section: &Section<'_>, name: &str, folder: &Path) -> Option<Feat
         None => None,
         Some(stated) => Some(stated?),
     };
-    let (geometry, points, sections) = match kind {
+    let (geometry, sampled) = match kind {
         "points" => {
-            (Geometry::Points, read_points(section, &folder.join(item.text()?))?, Vec::new())
+            let points = read_points(section, &folder.join(item.text()?))?;
+            (Geometry::Points, Sampled::of_table(points))
         }
         "mesh" => {
             let read = |s: &Section<'_>| read_mesh(s, folder, spacing_mm);
-            (Geometry::Points, item.section("mesh", read).flatten()?, Vec::new())
+            (Geometry::Points, Sampled::of_table(item.section("mesh", read).flatten()?))
         }
         _ => {
             let geometry = item.section(kind, |s| read_geometry(s, kind)).flatten()?;
-            let (points, sections) = sampled(section, name, &geometry, (spacing_mm, openings))?;
-            (geometry, points, sections)
+            (geometry, sampled(section, name, &geometry, (spacing_mm, openings))?)
         }
     };
+    let Sampled { points, is_kept, sections } = sampled;
     let [below_mm, above_mm] = reach;
     Some(Feature {
         name: name.to_owned(),
@@ -149,21 +149,22 @@ fn read_feature(section: &Section<'_>, name: &str, folder: &Path) -> Option<Feat
         pattern: None,
         geometry,
         points,
+        is_kept,
         sections,
         below_mm: below_mm?,
         above_mm: above_mm?,
     })
 }
 
-/// The points of a shape where it has no openings, and its sections.
+/// The points of a shape where it has no openings.
 fn sampled(
     section: &Section<'_>,
     name: &str,
     geometry: &Geometry,
     (spacing_mm, openings): (Option<f64>, Option<Item<'_>>),
-) -> Option<(Vec<SurfacePoint>, Vec<Range<usize>>)> {
+) -> Option<Sampled> {
     let spacing_mm = spacing_mm.unwrap_or_else(|| usual_spacing(geometry));
-    let (points, sections) = match geometry.sampled(spacing_mm) {
+    let mut sampled = match geometry.sampled(spacing_mm) {
         Ok(found) => found,
         Err(why) => {
             section.error("too-many-points", why, "write a larger `spacing`");
@@ -172,13 +173,15 @@ fn sampled(
     };
     let openings = openings.map_or(Some(Vec::new()), |item| read_openings(&item, geometry))?;
     let is_there = |p: &SurfacePoint| !openings.iter().any(|o| o.contains(&p.point_mm));
-    let points: Vec<SurfacePoint> = points.into_iter().filter(is_there).collect();
-    if points.is_empty() {
+    let mut points = sampled.points.iter();
+    sampled.is_kept.retain(|_| points.next().is_some_and(is_there));
+    sampled.points.retain(is_there);
+    if sampled.points.is_empty() {
         let message = format!("nothing remains of `{name}` without its openings");
         section.error("no-points", message, "smaller openings, or a smaller `spacing`");
         return None;
     }
-    Some((points, sections))
+    Some(sampled)
 }
 
 fn positive(item: &Item<'_>, key: &str) -> Option<f64> {

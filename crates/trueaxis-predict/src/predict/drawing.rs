@@ -37,6 +37,8 @@ pub struct PartValue {
     pub value_mm: f64,
     /// Standard uncertainty of that by the stated uncertainties of the machine, mm.
     pub u_mm: f64,
+    /// By how much it changes with half of the points, mm.
+    pub points_mm: f64,
     /// What the program leaves on a machine without errors, mm.
     pub nominal_mm: f64,
     /// How much of the tolerance is used. Unit: 1.
@@ -45,6 +47,18 @@ pub struct PartValue {
     pub outcome: Outcome,
     /// What each error does to it, the largest first.
     pub errors: Vec<ErrorEffect>,
+}
+
+impl PartValue {
+    /// Its combined standard uncertainty: of the machine, and of what lies between the points, anywhere within [`PartValue::points_mm`]
+    /// on either side (docs/model.md eq. 323), mm.
+    pub fn combined_mm(&self) -> f64 {
+        combined_mm(self.u_mm, self.points_mm)
+    }
+}
+
+fn combined_mm(u_mm: f64, points_mm: f64) -> f64 {
+    u_mm.hypot(points_mm / 3f64.sqrt())
 }
 
 /// A point of a feature as it was cut.

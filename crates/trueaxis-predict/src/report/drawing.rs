@@ -67,6 +67,7 @@ fn characteristics<'a>(study: &PartStudy, prediction: &PartPrediction) -> Sectio
             asked.name.clone(),
             um(value.value_mm),
             um(value.u_mm),
+            um(value.points_mm),
             um(value.nominal_mm),
             allowed(&asked.limits),
             format!("{:.0} %", 100.0 * value.used_ratio),
@@ -74,15 +75,17 @@ fn characteristics<'a>(study: &PartStudy, prediction: &PartPrediction) -> Sectio
         ]
     };
     let rows = study.part.characteristics.iter().zip(&prediction.values).map(row);
-    let headings = ["all in µm", "value", "u", "program alone", "allowed", "used", "verdict"];
+    let headings =
+        ["all in µm", "value", "u", "points", "program alone", "allowed", "used", "verdict"];
     let unknown = match prediction.errors_without_u.len() {
         0 => String::new(),
         1 => " One error of it states none and adds nothing to u.".to_owned(),
         count => format!(" {count} errors of it state none and add nothing to u."),
     };
     let note = format!(
-        "u: standard uncertainty by those of the machine file.{unknown} Program alone: what this program leaves on a \
-         machine without errors."
+        "u: standard uncertainty by those of the machine file.{unknown} Points: by how much the value changes with half \
+         of the points; a smaller `spacing` makes it smaller. Both count in a verdict by ISO 14253-1. Program alone: what this \
+         program leaves on a machine without errors."
     );
     Section::new("Characteristics").table(Table::new(headings).rows(rows).note(note))
 }

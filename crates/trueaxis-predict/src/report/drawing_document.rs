@@ -56,6 +56,8 @@ pub struct CharacteristicEntry<'a> {
     pub value_mm: f64,
     /// Standard uncertainty of that, by the stated uncertainties of the machine, mm.
     pub u_mm: f64,
+    /// By how much the value changes with half of the points, mm.
+    pub points_mm: f64,
     /// The value that the program leaves on a machine without errors, mm.
     pub nominal_mm: f64,
     /// The least value allowed; null for a zone, mm.
@@ -204,6 +206,7 @@ impl<'a> CharacteristicEntry<'a> {
             datums: asked.datums.iter().map(|d| features[*d].name.as_str()).collect(),
             value_mm: value.value_mm,
             u_mm: value.u_mm,
+            points_mm: value.points_mm,
             nominal_mm: value.nominal_mm,
             low_mm,
             high_mm,

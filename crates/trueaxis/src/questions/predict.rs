@@ -88,8 +88,11 @@ impl Predict {
         problems: &mut Diagnostics,
     ) -> Option<NewFile> {
         let (path, is_qif) = (self.results.as_ref()?, self.is_qif()?);
-        let found =
-            |v: &PartValue| Found { value_mm: v.value_mm, u_mm: v.u_mm, outcome: v.outcome };
+        let found = |v: &PartValue| Found {
+            value_mm: v.value_mm,
+            u_mm: v.combined_mm(),
+            outcome: v.outcome,
+        };
         let found: Vec<Found> = prediction.values.iter().map(found).collect();
         let text = match is_qif {
             true => results(&study.part, &found, &format!("TrueAxis {VERSION}")),

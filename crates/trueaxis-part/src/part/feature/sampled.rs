@@ -6,16 +6,35 @@ use std::ops::Range;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::surface::SurfacePoint;
 
+/// How far the outermost points are from the edges, where two surfaces meet. Unit: mm.
+const EDGE_MM: f64 = 0.25;
+
+/// Points of a surface.
+#[derive(Debug, Clone, Default)]
+pub struct Sampled {
+    /// Row after row.
+    pub points: Vec<SurfacePoint>,
+    /// Which remain with every second row, with the other rows, with every second point of each row, and with the others.
+    pub is_kept: Vec<[bool; 4]>,
+    /// Which points make a section across the axis.
+    pub sections: Vec<Range<usize>>,
+}
+
+impl Sampled {
+    /// Points in an order of their own.
+    pub fn of_table(points: Vec<SurfacePoint>) -> Self {
+        let is_kept = every_second(points.len());
+        Self { points, is_kept, sections: Vec::new() }
+    }
+}
+
 impl Geometry {
-    /// Points no farther apart than `spacing_mm`, and which of them make a section; half a step from edges, where two surfaces
-    /// meet.
+    /// Points no farther apart than `spacing_mm`, and which of them make a section; they reach to [`EDGE_MM`] from the edges, whatever
+    /// the spacing is.
     ///
     /// # Errors
     /// In words: too many points.
-    pub fn sampled(
-        &self,
-        spacing_mm: f64,
-    ) -> Result<(Vec<SurfacePoint>, Vec<Range<usize>>), String> {
+    pub fn sampled(&self, spacing_mm: f64) -> Result<Sampled, String> {
         let rows = self.rows(spacing_mm);
         let count: usize = rows.iter().map(|row| row.count).fold(0, usize::saturating_add);
         if count > MOST_POINTS {
@@ -23,16 +42,21 @@ impl Geometry {
                 "a spacing of {spacing_mm} mm makes {count} points, at most {MOST_POINTS} are checked"
             ));
         }
-        let (mut points, mut sections) = (Vec::with_capacity(count), Vec::new());
-        for row in rows {
-            let from = points.len();
-            points.extend((0..row.count).map(|k| (row.at)(k)));
-            sections.push(from..points.len());
+        let mut sampled = Sampled::default();
+        // Points of a slot that face each other are kept together.
+        let face = if self.median().is_some() { rows.len() / 2 } else { rows.len() };
+        for (j, row) in rows.into_iter().enumerate() {
+            let from = sampled.points.len();
+            sampled.points.extend((0..row.count).map(|k| (row.at)(k)));
+            let rows = alternate(j % face, face);
+            let points = (0..row.count).map(|k| alternate(k, row.count));
+            sampled.is_kept.extend(points.map(|[a, b]| [rows[0], rows[1], a, b]));
+            sampled.sections.push(from..sampled.points.len());
         }
         if self.axis().is_none() {
-            sections.clear();
+            sampled.sections.clear();
         }
-        Ok((points, sections))
+        Ok(sampled)
     }
 
     fn rows(&self, spacing_mm: f64) -> Vec<Row> {
@@ -50,9 +74,9 @@ impl Geometry {
             Self::Sphere { at_mm, axis, radius_mm, opening_rad, is_hole } => {
                 let [x, y] = across(&axis);
                 let sign = if is_hole { -1.0 } else { 1.0 };
-                let count = steps(radius_mm * opening_rad, spacing_mm);
-                let row = |j: usize| {
-                    let (sin, cos) = (opening_rad * middle(j, count)).sin_cos();
+                let rows = Along::new(radius_mm * opening_rad, spacing_mm);
+                let row = |share: f64| {
+                    let (sin, cos) = (opening_rad * share).sin_cos();
                     let around = turns(radius_mm * sin, spacing_mm);
                     Row::new(around, move |k| {
                         let (s, c) = turn(k, around).sin_cos();
@@ -60,14 +84,14 @@ impl Geometry {
                         point(at_mm + out * radius_mm, out * sign)
                     })
                 };
-                (0..count).map(row).collect()
+                rows.shares().map(row).collect()
             }
             Self::Torus { at_mm, axis, ring_mm, radius_mm, section_rad: [from, to], is_hole } => {
                 let [x, y] = across(&axis);
                 let sign = if is_hole { -1.0 } else { 1.0 };
-                let count = steps(radius_mm * (to - from), spacing_mm);
-                let row = |j: usize| {
-                    let (sin, cos) = (from + (to - from) * middle(j, count)).sin_cos();
+                let rows = Along::new(radius_mm * (to - from), spacing_mm);
+                let row = |share: f64| {
+                    let (sin, cos) = (from + (to - from) * share).sin_cos();
                     let ring = ring_mm + radius_mm * cos;
                     let around = turns(ring, spacing_mm);
                     Row::new(around, move |k| {
@@ -77,7 +101,7 @@ impl Geometry {
                         point(at_mm + out * ring_mm + normal * radius_mm, normal * sign)
                     })
                 };
-                (0..count).map(row).collect()
+                rows.shares().map(row).collect()
             }
             Self::Slot { at_mm, across, along, size_mm, width_mm, is_hole } => {
                 // Both faces in the same order, so that points that face each other make pairs.
@@ -92,6 +116,20 @@ impl Geometry {
             Self::Points => Vec::new(),
         }
     }
+}
+
+/// Whether one of many belongs to every second one, and to the others with both ends.
+fn alternate(step: usize, count: usize) -> [bool; 2] {
+    [step % 2 == 0, step % 2 == 1 || step == 0 || step + 1 == count]
+}
+
+/// The same for points without rows.
+pub fn every_second(count: usize) -> Vec<[bool; 4]> {
+    let of = |i| {
+        let [one, other] = alternate(i, count);
+        [one, other, one, other]
+    };
+    (0..count).map(of).collect()
 }
 
 /// Points of a row, made one by one so that too many are never made.
@@ -118,12 +156,12 @@ fn rectangle(
     spacing_mm: f64,
 ) -> impl Iterator<Item = Row> {
     let across = normal.cross(&along);
-    // A single row would be a line, through which no plane is laid.
-    let counts = size_mm.map(|size| steps(size, spacing_mm).max(2));
-    let offset = move |i: usize, k: usize| size_mm[i] * (middle(k, counts[i]) - 0.5);
-    (0..counts[1]).map(move |j| {
-        let from = at_mm + across * offset(1, j);
-        Row::new(counts[0], move |i| point(from + along * offset(0, i), normal))
+    // Fewer could all lie at the same side of the tool's rows.
+    let [row, rows] = size_mm.map(|size| Along::of_at_least(8, size, spacing_mm));
+    rows.shares().map(move |share| {
+        let from = at_mm + across * (size_mm[1] * (share - 0.5));
+        let at = move |i| point(from + along * (size_mm[0] * (row.share(i) - 0.5)), normal);
+        Row::new(row.count, at)
     })
 }
 
@@ -139,10 +177,8 @@ fn round(
     let sign = if is_hole { -1.0 } else { 1.0 };
     let rise = radii_mm[1] - radii_mm[0];
     let slant = length_mm.hypot(rise);
-    let count = steps(slant, spacing_mm).max(2);
     let around = turns(radii_mm[0].max(radii_mm[1]), spacing_mm);
-    let row = |j: usize| {
-        let along = middle(j, count);
+    let row = |along: f64| {
         let radius = radii_mm[0] + rise * along;
         let from = at_mm + axis * (length_mm * along);
         Row::new(around, move |k| {
@@ -152,7 +188,7 @@ fn round(
             point(from + out * radius, normal * sign)
         })
     };
-    (0..count).map(row).collect()
+    Along::new(slant, spacing_mm).shares().map(row).collect()
 }
 
 fn point(point_mm: Vec3, normal: Vec3) -> SurfacePoint {
@@ -171,11 +207,37 @@ fn steps(length_mm: f64, spacing_mm: f64) -> usize {
 
 /// Points around a circle: no fewer than show its form.
 fn turns(radius_mm: f64, spacing_mm: f64) -> usize {
-    steps(TAU * radius_mm, spacing_mm).max(24)
+    steps(TAU * radius_mm, spacing_mm).next_multiple_of(2).max(48)
 }
 
-fn middle(step: usize, count: usize) -> f64 {
-    (step as f64 + 0.5) / count as f64
+/// Points along a length: two of them near its ends, so that what leans is seen as a whole, and others between.
+#[derive(Clone, Copy)]
+struct Along {
+    count: usize,
+    /// Share of the length from an end to the first point.
+    edge: f64,
+}
+
+impl Along {
+    fn new(length_mm: f64, spacing_mm: f64) -> Self {
+        Self::of_at_least(4, length_mm, spacing_mm)
+    }
+
+    fn of_at_least(least: usize, length_mm: f64, spacing_mm: f64) -> Self {
+        let edge_mm = EDGE_MM.min(0.1 * length_mm);
+        // An even number of steps, so that every second point reaches to both ends, too.
+        let count = steps(length_mm - 2.0 * edge_mm, spacing_mm).next_multiple_of(2).max(least);
+        let count = count + 1;
+        Self { count, edge: edge_mm / length_mm }
+    }
+
+    fn share(self, step: usize) -> f64 {
+        self.edge + (1.0 - 2.0 * self.edge) * step as f64 / (self.count - 1) as f64
+    }
+
+    fn shares(self) -> impl Iterator<Item = f64> {
+        (0..self.count).map(move |step| self.share(step))
+    }
 }
 
 fn turn(step: usize, count: usize) -> f64 {

@@ -2,7 +2,7 @@
 
 use super::many::{ManyParts, many};
 use super::path::CutPath;
-use super::{PartStudy, PartValue, outcome};
+use super::{PartStudy, PartValue, combined_mm, outcome};
 use rayon::prelude::*;
 use trueaxis_cut::{Cut, Nail};
 use trueaxis_geometry::Vec3;
@@ -154,6 +154,7 @@ pub(super) fn values(
     let evaluate = |deviation_mm: &[f64]| part.evaluate(deviation_mm).map_err(|e| e.to_string());
     let actual = evaluate(deviations)?;
     let nominal = evaluate(by_program)?;
+    let by_points = part.by_points_mm(deviations).map_err(|e| e.to_string())?;
     let shifts = all.uncertain_shifts(&study.mounted.uncertain_quantities());
     let u_mm = propagated(part, deviations, &shifts)?;
     let drawn =
@@ -166,7 +167,8 @@ pub(super) fn values(
         .map(|shifts| evaluate(&added(deviations, shifts, 1.0)))
         .collect::<Result<_, _>>()?;
     let value = |(i, asked): (usize, &part::Characteristic)| {
-        let (value_mm, u_mm) = (actual[i], u_mm[i]);
+        let (value_mm, u_mm, points_mm) = (actual[i], u_mm[i], by_points[i]);
+        let combined_mm = combined_mm(u_mm, points_mm);
         let of = |((_, error), without): (&(ErrorIndex, ErrorName), &Vec<f64>)| ErrorEffect {
             error: *error,
             without_mm: without[i],
@@ -177,9 +179,10 @@ pub(super) fn values(
         PartValue {
             value_mm,
             u_mm,
+            points_mm,
             nominal_mm: nominal[i],
             used_ratio: asked.limits.used(value_mm),
-            outcome: outcome(&asked.limits, value_mm, u_mm, study.decision),
+            outcome: outcome(&asked.limits, value_mm, combined_mm, study.decision),
             errors,
         }
     };
@@ -228,7 +231,7 @@ pub(super) fn sufficient(
         let each = part.characteristics.iter().zip(values).map(|(asked, value)| {
             let effect = value.errors.iter().find(|e| e.error == *error)?;
             let without_mm = effect.without_mm;
-            let outcome = outcome(&asked.limits, without_mm, value.u_mm, study.decision);
+            let outcome = outcome(&asked.limits, without_mm, value.combined_mm(), study.decision);
             (outcome == Outcome::Pass).then(|| asked.limits.used(without_mm))
         });
         each.collect::<Option<Vec<f64>>>().map(|used| used.into_iter().fold(0.0, f64::max))

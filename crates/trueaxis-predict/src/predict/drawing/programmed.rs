@@ -4,7 +4,7 @@ use super::{PartStudy, nails_of};
 use trueaxis_cut::{Cut, Nail, Reach, Sweep, cut};
 use trueaxis_geometry::surface::SurfacePoint;
 use trueaxis_input::{Diagnostics, Place};
-use trueaxis_part::part::{Feature, Geometry, Part};
+use trueaxis_part::part::{Feature, Geometry, Part, every_second};
 
 /// A surface seen at a flatter angle than this gives no point. Unit: 1.
 const FLATTEST_COS: f64 = 0.1;
@@ -41,6 +41,7 @@ pub(super) fn completed(
         });
         feature.points = points.collect();
         *known = Some(keep_smooth(feature, nominal));
+        feature.is_kept = every_second(feature.points.len());
         let (count, name) = (feature.points.len(), &feature.name);
         let place = Place::whole(&study.part_file);
         if count == 0 {
