@@ -16,9 +16,9 @@ const ROUNDING: f64 = 2e-15;
 /// The first radius of trust.
 const FIRST_TRUST: f64 = 0.05;
 /// Points that are searched at once; the others are checked afterwards.
-const WORKING_SET: usize = 1500;
-/// Points that are added to the working set from each end.
-const ADDED: usize = 100;
+const WORKING_SET: usize = 60;
+/// Points that are added to the working set from each end at first, twice as many each time.
+const ADDED: usize = 10;
 
 /// A point that holds the element.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -126,11 +126,12 @@ pub(crate) fn minimise(
     let family = Family::of(element);
     let mut working: Vec<usize> = match points.len() {
         n if n <= 2 * WORKING_SET => (0..n).collect(),
-        n => (0..WORKING_SET).map(|k| k * n / WORKING_SET).collect(),
+        n => spread(n),
     };
     let mut at = start;
-    for _ in 0..60 {
-        add_ends(&mut working, family, points, at);
+    for round in 0..60 {
+        let added = (ADDED << round.min(16)).min(points.len() / 2);
+        add_ends(&mut working, family, points, (at, added));
         let few: Vec<Vec3> = working.iter().map(|i| points[*i]).collect();
         let mut found = Search { family, criterion, points: &few, at }.run()?;
         at = Start { frame: found.frame, half_angle: found.half_angle };
@@ -147,17 +148,38 @@ pub(crate) fn minimise(
     None
 }
 
+/// Some of so many points, in step with no pattern: golden sections.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a share of the count, which is no larger"
+)]
+fn spread(count: usize) -> Vec<usize> {
+    const GOLDEN: f64 = 0.618_033_988_749_895;
+    let share = |k: usize| (k as f64 * GOLDEN).fract();
+    let mut some: Vec<usize> =
+        (0..WORKING_SET).map(|k| (share(k) * count as f64) as usize).collect();
+    some.sort_unstable();
+    some.dedup();
+    some
+}
+
 /// Adds the points at both ends.
-fn add_ends(working: &mut Vec<usize>, family: Family, points: &[Vec3], at: Start) {
+fn add_ends(
+    working: &mut Vec<usize>,
+    family: Family,
+    points: &[Vec3],
+    (at, added): (Start, usize),
+) {
     if working.len() == points.len() {
         return;
     }
     let all = Distances::about(family, &at.frame, at.half_angle, points);
     let mut order: Vec<usize> = (0..points.len()).collect();
     let by_value = |a: &usize, b: &usize| all.values[*a].total_cmp(&all.values[*b]);
-    let last = points.len() - ADDED;
-    order.select_nth_unstable_by(ADDED, by_value);
-    working.extend(&order[..ADDED]);
+    let last = points.len() - added;
+    order.select_nth_unstable_by(added, by_value);
+    working.extend(&order[..added]);
     order.select_nth_unstable_by(last, by_value);
     working.extend(&order[last..]);
     working.sort_unstable();

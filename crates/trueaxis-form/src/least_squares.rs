@@ -122,12 +122,23 @@ impl Solution {
 /// # Source
 /// Levenberg 1944, Marquardt 1963; scaling of the columns: Moré 1978; damping by the gain: Nielsen 1999.
 pub fn solve(problem: &impl Residuals, start: &[f64]) -> Option<Solution> {
+    solve_by(problem, start, &MANNERS)
+}
+
+/// As [`solve`], from a start that is so near that whole steps lead there.
+pub(crate) fn solve_near(problem: &impl Residuals, start: &[f64]) -> Option<Solution> {
+    solve_by(problem, start, &[WHOLE_STEPS])
+        .filter(Solution::is_converged)
+        .or_else(|| solve(problem, start))
+}
+
+fn solve_by(problem: &impl Residuals, start: &[f64], manners: &[Manner]) -> Option<Solution> {
     if problem.count() < start.len() {
         return None;
     }
     let mut best: Option<Solution> = None;
-    for manner in MANNERS {
-        let mut search = Search::new(problem, start, manner)?;
+    for manner in manners {
+        let mut search = Search::new(problem, start, *manner)?;
         let ending = search.run();
         let found = search.solution(ending);
         let is_converged = found.is_converged();
@@ -157,6 +168,9 @@ const MANNERS: [Manner; 4] = [
     Manner { damping: 10.0, keeps_scale: false },
     Manner { damping: 1e3, keeps_scale: true },
 ];
+
+/// Gauss and Newton's method.
+const WHOLE_STEPS: Manner = Manner { damping: 1e-30, keeps_scale: true };
 
 struct Search<'a, P: Residuals> {
     problem: &'a P,

@@ -4,7 +4,7 @@
 //! and the most violated row enters. Ties are broken by the lexicographic rule, so that it cannot run in a circle.
 
 use crate::surface::MOST;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Const, DimMin, SMatrix, SVector};
 
 /// Most unknowns: those of a family, upper and lower end.
 const ROWS: usize = MOST + 2;
@@ -91,9 +91,24 @@ impl Linear<'_> {
 
     /// The smallest range, upper end, or −lower end within the box.
     pub fn solve(&self) -> Option<Best> {
-        let m = self.size();
+        match self.size() {
+            2 => self.solve_of::<2>(),
+            3 => self.solve_of::<3>(),
+            4 => self.solve_of::<4>(),
+            5 => self.solve_of::<5>(),
+            6 => self.solve_of::<6>(),
+            ROWS => self.solve_of::<ROWS>(),
+            _ => None,
+        }
+    }
+
+    /// With so many rows of the basis.
+    fn solve_of<const M: usize>(&self) -> Option<Best>
+    where
+        Const<M>: DimMin<Const<M>, Output = Const<M>>,
+    {
         let far = self.values.iter().fold(0.0_f64, |f, v| f.max(v.abs())) + 10.0 * MOST as f64;
-        let mut cost = DVector::zeros(m);
+        let mut cost = SVector::<f64, M>::zeros();
         if self.ends[0] {
             cost[self.upper()] = 1.0;
         }
@@ -101,39 +116,35 @@ impl Linear<'_> {
             cost[self.lower()] = -1.0;
         }
         let mut basis: Vec<Row> =
-            (0..m).map(|k| Row::Box(k, if cost[k] > 0.0 { -1.0 } else { 1.0 })).collect();
-        let first = self.matrix(&basis);
-        let mut right = DMatrix::zeros(m, m + 1);
-        right.set_column(0, &(-&cost));
-        right.view_mut((0, 1), (m, m)).copy_from(&first);
+            (0..M).map(|k| Row::Box(k, if cost[k] > 0.0 { -1.0 } else { 1.0 })).collect();
+        let first = self.matrix::<M>(&basis);
         for _ in 0..MOST_PIVOTS {
-            let matrix = self.matrix(&basis);
-            let lu = matrix.clone().lu();
-            let table = lu.solve(&right)?;
-            let limits = DVector::from_iterator(m, basis.iter().map(|r| self.right(*r, far)));
+            let matrix = self.matrix::<M>(&basis);
+            let lu = matrix.lu();
+            let weights = lu.solve(&-cost)?;
+            let limits = SVector::from_fn(|k, _| self.right(basis[k], far));
             let y = matrix.transpose().lu().solve(&limits)?;
-            let Some(entering) = self.most_violated(&y, &basis, far) else {
-                return Some(self.best(&y, &basis, &table));
+            let Some(entering) = self.most_violated(y.as_slice(), &basis, far) else {
+                return Some(self.best(y.as_slice(), &basis, weights.as_slice()));
             };
             let normal = self.normal(entering);
-            let share = lu.solve(&DVector::from_column_slice(&normal[..m]))?;
-            let leaving = leaving(&table, &share)?;
+            let share = lu.solve(&SVector::from_column_slice(&normal[..M]))?;
+            let leaving = leaving(&weights, &lu.solve(&first)?, &share)?;
             basis[leaving] = entering;
         }
         None
     }
 
-    fn matrix(&self, basis: &[Row]) -> DMatrix<f64> {
-        let m = basis.len();
-        let mut matrix = DMatrix::zeros(m, m);
+    fn matrix<const M: usize>(&self, basis: &[Row]) -> SMatrix<f64, M, M> {
+        let mut matrix = SMatrix::zeros();
         for (j, row) in basis.iter().enumerate() {
             let normal = self.normal(*row);
-            (0..m).for_each(|i| matrix[(i, j)] = normal[i]);
+            (0..M).for_each(|i| matrix[(i, j)] = normal[i]);
         }
         matrix
     }
 
-    fn most_violated(&self, y: &DVector<f64>, basis: &[Row], far: f64) -> Option<Row> {
+    fn most_violated(&self, y: &[f64], basis: &[Row], far: f64) -> Option<Row> {
         let step: [f64; MOST] = std::array::from_fn(|k| if k < self.unknowns { y[k] } else { 0.0 });
         let upper = if self.ends[0] { y[self.upper()] } else { f64::INFINITY };
         let lower = if self.ends[1] { y[self.lower()] } else { f64::NEG_INFINITY };
@@ -156,21 +167,26 @@ impl Linear<'_> {
         worst.1.filter(|row| !basis.contains(row))
     }
 
-    fn best(&self, y: &DVector<f64>, basis: &[Row], table: &DMatrix<f64>) -> Best {
+    fn best(&self, y: &[f64], basis: &[Row], weights: &[f64]) -> Best {
         let step = std::array::from_fn(|k| if k < self.unknowns { y[k] } else { 0.0 });
         let upper = if self.ends[0] { y[self.upper()] } else { 0.0 };
         let lower = if self.ends[1] { y[self.lower()] } else { 0.0 };
-        let rows = basis.iter().enumerate().map(|(k, row)| (*row, table[(k, 0)])).collect();
+        let rows = basis.iter().zip(weights).map(|(row, w)| (*row, *w)).collect();
         Best { step, ends: [upper, lower], rows }
     }
 }
 
 /// The row of the basis that leaves: the smallest ratio, ties by the columns of the first basis.
-fn leaving(table: &DMatrix<f64>, share: &DVector<f64>) -> Option<usize> {
-    let candidates = (0..share.len()).filter(|k| share[*k] > 1e-11);
+fn leaving<const M: usize>(
+    weights: &SVector<f64, M>,
+    table: &SMatrix<f64, M, M>,
+    share: &SVector<f64, M>,
+) -> Option<usize> {
+    let candidates = (0..M).filter(|k| share[*k] > 1e-11);
     candidates.min_by(|a, b| {
-        let ratio = |k: usize, c: usize| table[(k, c)] / share[k];
-        (0..table.ncols())
+        let ratio = |k: usize, c: Option<usize>| c.map_or(weights[k], |c| table[(k, c)]) / share[k];
+        std::iter::once(None)
+            .chain((0..M).map(Some))
             .map(|c| (ratio(*a, c), ratio(*b, c)))
             .find(|(x, y)| (x - y).abs() > 1e-13 * (1.0 + x.abs()))
             .map_or(std::cmp::Ordering::Equal, |(x, y)| x.total_cmp(&y))

@@ -80,6 +80,18 @@ proptest! {
         same(&before, &fitted(element, &scaled), scale, 1e-9)?;
     }
 
+    /// Of many points a few are searched at once: which ones, by their order, changes nothing, not even where they stand row by row.
+    #[test]
+    fn law_the_order_of_many_points_does_not_matter(
+        element in elements(), seed in any::<u64>(), count in 121u32..700, rows in 1usize..60,
+    ) {
+        let points = piece(element, seed, count);
+        let before = fitted(element, &points);
+        let by_rows: Vec<Vec3> =
+            (0..rows).flat_map(|r| points.iter().skip(r).step_by(rows).copied()).collect();
+        same(&before, &fitted(element, &by_rows), 1.0, 1e-9)?;
+    }
+
     #[test]
     fn law_every_element_is_best_at_its_own_game(
         element in elements(), seed in any::<u64>(), count in 24u32..60, (turn, shift) in motion(),

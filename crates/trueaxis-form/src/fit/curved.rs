@@ -2,7 +2,7 @@
 
 use super::{Cloud, Fitted, Spread, contact_reference, range};
 use crate::chebyshev::Start;
-use crate::least_squares::{Residuals, solve};
+use crate::least_squares::{Residuals, solve, solve_near};
 use crate::surface::{Family, Frame, MOST, Place};
 use crate::{Criterion, Element, Error, Shape, start};
 use nalgebra::DMatrix;
@@ -48,17 +48,20 @@ struct Least {
 }
 
 /// Least squares from a place, in frames that follow the element.
-fn least(family: Family, points: &[Vec3], mut place: Place) -> Option<Least> {
+fn least(family: Family, points: &[Vec3], (mut place, is_near): (Place, bool)) -> Option<Least> {
     let n = family.unknowns();
     let mut found = None;
-    for _ in 0..8 {
+    for round in 0..8 {
         let mut start = vec![0.0; n];
         if family == Family::Cone {
             start[4] = place.half_angle;
         }
         start.push(place.offset);
         let problem = Orthogonal { family, frame: place.frame, points };
-        let solution = solve(&problem, &start)?;
+        let solution = match is_near || round > 0 {
+            true => solve_near(&problem, &start)?,
+            false => solve(&problem, &start)?,
+        };
         let x = &solution.values;
         let change = x.iter().zip(&start).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         let half_angle = if family == Family::Cone { x[4] } else { 0.0 };
@@ -93,12 +96,19 @@ fn place_of(shape: &Shape) -> Place {
     Place { frame, offset, half_angle: shape.half_angle_rad }
 }
 
+/// The two guesses that come nearest to some of the points.
+fn best_guesses(element: Element, cloud: &Cloud) -> Vec<Place> {
+    let few = start::thinned(&cloud.points);
+    let tried = guesses(element, &cloud.points).into_iter();
+    let mut tried: Vec<Least> =
+        tried.filter_map(|g| least(Family::of(element), &few, (g, false))).collect();
+    tried.retain(|l| l.squares.is_finite() && l.place.offset.is_finite());
+    tried.sort_by(|a, b| a.squares.total_cmp(&b.squares));
+    tried.into_iter().take(2).map(|l| l.place).collect()
+}
+
 /// First guesses of a curved element.
-fn guesses(element: Element, cloud: &Cloud) -> Vec<Place> {
-    let points = &cloud.points;
-    if let Some(near) = &cloud.near {
-        return vec![place_of(near)];
-    }
+fn guesses(element: Element, points: &[Vec3]) -> Vec<Place> {
     if element == Element::Sphere {
         let sphere = start::sphere(points);
         let place = |(centre, offset)| {
@@ -117,13 +127,13 @@ fn guesses(element: Element, cloud: &Cloud) -> Vec<Place> {
 
 pub(super) fn curved(element: Element, cloud: &Cloud) -> Result<Fitted, Error> {
     let family = Family::of(element);
-    let few = start::thinned(&cloud.points);
-    let tried = guesses(element, cloud).into_iter();
-    let mut tried: Vec<Least> = tried.filter_map(|g| least(family, &few, g)).collect();
-    tried.retain(|l| l.squares.is_finite() && l.place.offset.is_finite());
-    tried.sort_by(|a, b| a.squares.total_cmp(&b.squares));
-    tried.truncate(2);
-    let finals = tried.into_iter().filter_map(|l| least(family, &cloud.points, l.place));
+    let begins = match &cloud.near {
+        Some(near) => vec![place_of(near)],
+        None => best_guesses(element, cloud),
+    };
+    let finals = begins
+        .into_iter()
+        .filter_map(|place| least(family, &cloud.points, (place, cloud.near.is_some())));
     let mut finals: Vec<Least> = finals.collect();
     finals.sort_by(|a, b| a.squares.total_cmp(&b.squares));
     let best = finals.first().ok_or(Error::NoCentre)?;

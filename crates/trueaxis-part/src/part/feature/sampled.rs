@@ -120,7 +120,7 @@ impl Geometry {
 
 /// Whether one of many belongs to every second one, and to the others with both ends.
 fn alternate(step: usize, count: usize) -> [bool; 2] {
-    [step % 2 == 0, step % 2 == 1 || step == 0 || step + 1 == count]
+    [step.is_multiple_of(2), step % 2 == 1 || step == 0 || step + 1 == count]
 }
 
 /// The same for points without rows.

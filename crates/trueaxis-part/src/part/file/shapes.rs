@@ -25,21 +25,16 @@ pub(super) const SHAPES: [&str; 14] = [
     "programmed",
 ];
 
-/// Some 40 points along the longer side, 48 to 96 around.
+/// Some 40 points along the longer side, 48 around.
 pub(super) fn usual_spacing(geometry: &Geometry) -> f64 {
-    // Five sections where that does not crowd the points of each: short cylinders have fewer.
-    let round = |radius_mm: f64, length_mm: f64| {
-        let around = PI * radius_mm / 24.0;
-        around.min((0.2 * length_mm).max(0.5 * around))
-    };
+    // There are 48 points around at least; sections stand twice as far apart.
+    let round = |radius_mm: f64| PI * radius_mm / 12.0;
     // At least three rows on a narrow strip.
     let flat = |[a, b]: &[f64; 2], share: f64| (share * a.max(*b)).min(a.min(*b) / 3.0);
     match geometry {
         Geometry::Plane { size_mm, .. } | Geometry::Slot { size_mm, .. } => flat(size_mm, 0.025),
-        Geometry::Cylinder { radius_mm, length_mm, .. } => round(*radius_mm, *length_mm),
-        Geometry::Cone { radii_mm, length_mm, .. } => {
-            round(radii_mm[0].max(radii_mm[1]), *length_mm)
-        }
+        Geometry::Cylinder { radius_mm, .. } => round(*radius_mm),
+        Geometry::Cone { radii_mm, .. } => round(radii_mm[0].max(radii_mm[1])),
         Geometry::Sphere { radius_mm, opening_rad, .. } => 0.1 * radius_mm * opening_rad,
         Geometry::Torus { ring_mm, radius_mm, .. } => {
             (PI * ring_mm / 18.0).min(PI * radius_mm / 12.0)
