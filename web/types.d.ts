@@ -9786,6 +9786,10 @@ export interface PredictPart {
    */
   outcome: string;
   /**
+   * The same by the compensated program; absent unless it was asked for.
+   */
+  compensated_outcome?: string | null;
+  /**
    * Errors each of whose corrections alone brings all characteristics into tolerance, the best first; empty where they are.
    */
   sufficient: string[];
@@ -9917,6 +9921,10 @@ export interface CharacteristicEntry {
    */
   outcome: string;
   /**
+   * By the compensated program; absent unless it was asked for.
+   */
+  compensated?: CompensatedEntry | null;
+  /**
    * From the Monte Carlo run; absent if there was none.
    */
   monte_carlo?: DrawnEntry | null;
@@ -9924,6 +9932,19 @@ export interface CharacteristicEntry {
    * The errors that matter most, the largest first.
    */
   errors: ErrorEffectEntry[];
+}
+/**
+ * A characteristic by the compensated program.
+ */
+export interface CompensatedEntry {
+  /**
+   * Its value, mm.
+   */
+  value_mm: number;
+  /**
+   * `pass`, `fail` or `undecided`, with the u of before.
+   */
+  outcome: string;
 }
 /**
  * A characteristic in the Monte Carlo run.
@@ -11822,6 +11843,10 @@ export interface DrawingDocument {
    * `pass`, `fail`, or `undecided` within the uncertainty.
    */
   outcome: string;
+  /**
+   * The same by the compensated program; absent unless it was asked for.
+   */
+  compensated_outcome?: string | null;
   /**
    * Errors each of whose corrections alone brings all characteristics into tolerance, the best first; empty where they are.
    */

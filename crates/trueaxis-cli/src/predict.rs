@@ -13,6 +13,7 @@ Examples:
   trueaxis predict examples/03_predict/nas979-on-xkas2525.toml
   trueaxis predict examples/03_predict/torque-arm.toml
   trueaxis predict examples/03_predict/housing.toml
+  trueaxis predict examples/03_predict/housing.toml --compensated
   trueaxis predict examples/03_predict/housing.toml --results housing.qif
   trueaxis predict examples/03_predict/nas979-on-xkas2525.toml --format json
 
@@ -31,6 +32,9 @@ pub struct Arguments {
     /// Of a part, write its characteristics with value, u and verdict here: a table (.csv) or QIF (.qif, ISO 23952)
     #[arg(long, value_name = "FILE")]
     results: Option<PathBuf>,
+    /// Of a part, judge it by its program compensated for the machine, too (as by `compensate program`): before and after
+    #[arg(long)]
+    compensated: bool,
     #[command(flatten)]
     door: DoorArguments,
 }
@@ -41,6 +45,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         samples: arguments.samples.clone(),
         seed: arguments.seed,
         results: arguments.results.clone(),
+        compensated: arguments.compensated,
     };
     arguments.door.door().ask(&question)
 }

@@ -66,6 +66,27 @@ fn results_are_those_of_the_prediction() {
     assert_eq!(draft["draft"]["characteristics"], asked.len());
 }
 
+/// By the compensated program the housing is as good as the increment of the program allows, and what counts from datums is that of the program alone;
+/// the verdict and the exit status stay those of the program as it is.
+#[test]
+fn a_part_by_its_compensated_program() {
+    let words = ["predict", HOUSING, "--samples", "0", "--compensated", "--format", "json"];
+    let ran = trueaxis(&words);
+    assert_eq!(ran.status, 1, "{}", ran.err);
+    let document = ran.json();
+    assert_eq!(document["compensated_outcome"], "pass");
+    for one in list(&document, "characteristics") {
+        let number = |v: &Value| v.as_f64().expect("a number");
+        let after = number(&one["compensated"]["value_mm"]);
+        // A residual of 1 µm either way at each end of a zone, and twice that where a zone is a diameter.
+        assert!((after - number(&one["nominal_mm"])).abs() < 4e-3, "{one}");
+        assert_eq!(one["compensated"]["outcome"], "pass", "{one}");
+    }
+    let words = ["predict", "examples/03_predict/torque-arm.toml", "--compensated"];
+    let ran = trueaxis(&words);
+    assert!(ran.status == 2 && ran.err.contains("contradiction"), "{}", ran.err);
+}
+
 #[test]
 fn results_that_cannot_be_written_are_refused() {
     let folder = Folder::new("part-refused");

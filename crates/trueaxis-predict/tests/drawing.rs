@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 use trueaxis_input::{Diagnostics, Files, Source};
+use trueaxis_nc::Program;
 use trueaxis_predict::predict::drawing::{
-    PartPrediction, PartStudy, cut_with, predict_part, read_part_study,
+    PartPrediction, PartStudy, cut_with, predict_corrected, predict_part, read_part_study,
 };
 
 const STUDY: &str = "name = \"s\"\nmachine = \"m.toml\"\npart = \"p.toml\"\nprogram = \"p.nc\"\n";
@@ -487,6 +488,36 @@ fn law_the_guard_band_has_two_sides() {
     assert_eq!(outcome("8.3 um"), Outcome::Undecided);
     assert_eq!(outcome("5.6 um"), Outcome::Undecided);
     assert_eq!(outcome("5.5 um"), Outcome::Fail);
+}
+
+/// The same program makes the same part again; one that is corrected by hand for a squareness makes it as on a machine without: Y moves X by
+/// s · Y, so that X is commanded by s · Y farther back.
+#[test]
+fn law_a_program_that_is_corrected_by_hand() {
+    let part = "name = \"p\"\n[feature.side]\nplane = { at = \"60 0 -10 mm\", normal = \"1 0 0\", along = \"0 1 0\", size = \"70 16 mm\" }\n\
+        [feature.program]\nprogrammed = { at = \"64 0 -10 mm\", normal = \"1 0 0\", along = \"0 1 0\", size = \"60 16 mm\", depth = \"8 mm\" }\n\
+        [[characteristic]]\nprofile = \"10 um\"\nof = \"side\"\n[[characteristic]]\nprofile = \"10 um\"\nof = \"program\"\n";
+    let machine = mill("EC0Y = \"100 urad\"");
+    let study = study(&[("m.toml", &machine), ("p.toml", part)]);
+    let study = study.unwrap_or_else(|p| panic!("{:?}", words(&p)));
+    let mut problems = Diagnostics::new();
+    let before = predict_part(&study, &|_| {}, &mut problems).expect("a prediction");
+    let by = |text: &str| {
+        let program = Program::new("p.nc", text.into(), study.job.control);
+        let mut problems = Diagnostics::new();
+        let found = predict_corrected(&study, &before, &program, &mut problems);
+        found.unwrap_or_else(|| panic!("{:?}", words(&problems)))
+    };
+    let again = by(PROGRAM);
+    assert_eq!(again.values_mm, values(&before));
+    assert!(again.values_mm.iter().all(|v| *v > 5e-3), "{again:?}");
+    // EC0Y turns Y about Z: X moves by −s · Y.
+    let corrected =
+        PROGRAM.replace("G0 X66. Y60.", "G0 X66.006 Y60.").replace("G1 Y-46.", "G1 X65.9954 Y-46.");
+    assert_ne!(corrected, PROGRAM);
+    let after = by(&corrected);
+    assert!(after.values_mm.iter().all(|v| v.abs() < 2e-5), "{after:?}");
+    assert_eq!(after.outcome, trueaxis_part::tolerance::Outcome::Pass);
 }
 
 /// A surface that the program makes, seen through a rectangle: nought on a machine without errors, and what an error displaces it by on another.

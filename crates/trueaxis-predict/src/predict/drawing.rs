@@ -10,12 +10,14 @@
 //! ```
 
 mod budget;
+mod corrected;
 mod many;
 mod path;
 mod programmed;
 mod study;
 
 pub use budget::{ErrorEffect, PointEffect, effects};
+pub use corrected::{CorrectedPart, predict_corrected};
 pub use many::{Drawn, ManyParts, cut_with};
 pub use path::{CutPath, Origin};
 pub use study::{PartStudy, is_part_study, read_part_study};
@@ -88,12 +90,16 @@ pub struct CutFeature {
 /// What was found out about the part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PartPrediction {
+    /// The part; surfaces that its file leaves to the program have their points.
+    pub part: part::Part,
     /// In the order of the part file.
     pub features: Vec<CutFeature>,
     /// In the order of the part file.
     pub values: Vec<PartValue>,
     /// The same on many machines, if the study asks for it.
     pub drawn: Option<ManyParts>,
+    /// The same by the compensated program, if it was asked for.
+    pub corrected: Option<CorrectedPart>,
     /// Files of the program, by the number in [`Origin`].
     pub programs: Vec<String>,
     /// All characteristics together.
@@ -132,18 +138,7 @@ pub fn predict_part(
     if has_errors || left_out > 0 {
         return None;
     }
-    let (actual, nominal) = match path.sweeps() {
-        Ok(sweeps) => sweeps,
-        Err(why) => {
-            problems.error(
-                "unknown-cutter",
-                place,
-                why,
-                "state diameter and corner_radius of the tool in the set-up file",
-            );
-            return None;
-        }
-    };
+    let (actual, nominal) = sweeps(&path, place.clone(), problems)?;
     let (part, known) = programmed::completed(study, &nominal, problems)?;
     let nails = nails(&part);
     let actual = cut(&actual, &nails);
@@ -179,11 +174,7 @@ pub fn predict_part(
     let features = features
         .map(|f| CutFeature { points: points.by_ref().take(f.points.len()).collect() })
         .collect();
-    let outcome = values.iter().fold(Outcome::Pass, |all, value| match (all, value.outcome) {
-        (Outcome::Fail, _) | (_, Outcome::Fail) => Outcome::Fail,
-        (Outcome::Undecided, _) | (_, Outcome::Undecided) => Outcome::Undecided,
-        (Outcome::Pass, Outcome::Pass) => Outcome::Pass,
-    });
+    let outcome = together(values.iter().map(|v| v.outcome));
     let sufficient = match outcome {
         Outcome::Pass => Vec::new(),
         Outcome::Fail | Outcome::Undecided => budget::sufficient(study, &part, &values),
@@ -193,10 +184,31 @@ pub fn predict_part(
         values,
         sufficient,
         drawn,
+        corrected: None,
+        part,
         programs: run.programs,
         outcome,
         steps: path.steps(),
         errors_without_u: errors_without_u(&study.mounted),
+    })
+}
+
+/// What actual and nominal tools pass through.
+fn sweeps(
+    path: &CutPath<'_>,
+    place: Place,
+    problems: &mut Diagnostics,
+) -> Option<(Vec<Sweep>, Vec<Sweep>)> {
+    let hint = "state diameter and corner_radius of the tool in the set-up file";
+    path.sweeps().map_err(|why| problems.error("unknown-cutter", place, why, hint)).ok()
+}
+
+/// All characteristics together.
+fn together(outcomes: impl Iterator<Item = Outcome>) -> Outcome {
+    outcomes.fold(Outcome::Pass, |all, one| match (all, one) {
+        (Outcome::Fail, _) | (_, Outcome::Fail) => Outcome::Fail,
+        (Outcome::Undecided, _) | (_, Outcome::Undecided) => Outcome::Undecided,
+        (Outcome::Pass, Outcome::Pass) => Outcome::Pass,
     })
 }
 

@@ -3,7 +3,7 @@
 use super::drawing_document::extremes;
 use super::drawing_pictures::deviation_map;
 use crate::predict::drawing::{
-    CutPoint, Drawn, ManyParts, PartPrediction, PartStudy, PartValue, effects,
+    CorrectedPart, CutPoint, Drawn, ManyParts, PartPrediction, PartStudy, PartValue, effects,
 };
 use crate::predict::{Sampling, Spread};
 use trueaxis_part::part::{Characteristic, Limits};
@@ -37,7 +37,40 @@ pub fn drawing_report<'a>(study: &'a PartStudy, prediction: &'a PartPrediction) 
         Some((sampling, drawn)) => report.section(many_machines(study, sampling, drawn)),
         None => report,
     };
+    let report = match &prediction.corrected {
+        Some(corrected) => report.section(compensated(study, prediction, corrected)),
+        None => report,
+    };
     report.section(budget(study, prediction)).section(features(study, prediction))
+}
+
+/// The part before and after its program is compensated.
+fn compensated<'a>(
+    study: &PartStudy,
+    prediction: &PartPrediction,
+    corrected: &CorrectedPart,
+) -> Section<'a> {
+    let mut table = Table::new(["all in µm", "before", "compensated", "allowed", "verdict"]);
+    for (i, (asked, value)) in study.part.characteristics.iter().zip(&prediction.values).enumerate()
+    {
+        table = table.row([
+            asked.name.clone(),
+            um(value.value_mm),
+            um(corrected.values_mm[i]),
+            allowed(&asked.limits),
+            corrected.outcomes[i].word().to_owned(),
+        ]);
+    }
+    let sentence = match corrected.outcome {
+        Outcome::Pass => "Cut by the compensated program, the part will be in tolerance.",
+        Outcome::Fail => "The compensated program does not bring the part into tolerance.",
+        Outcome::Undecided => {
+            "Cut by the compensated program, the part is within U of a limit: there is no verdict."
+        }
+    };
+    let note = "By the program that `compensate program` writes (residual and increment 1 µm), on the same machine, with the same u. \
+                The zero stays where it was set: what counts from it keeps the error of the tip there.";
+    Section::new("With the program compensated").paragraph(sentence).table(table.note(note))
 }
 
 /// The characteristics with one outcome.

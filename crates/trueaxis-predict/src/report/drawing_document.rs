@@ -3,7 +3,8 @@
 use super::prediction_document::SpreadEntry;
 use crate::predict::Sampling;
 use crate::predict::drawing::{
-    CutPoint, Drawn, ManyParts, PartPrediction, PartStudy, PartValue, PointEffect, effects,
+    CorrectedPart, CutPoint, Drawn, ManyParts, PartPrediction, PartStudy, PartValue, PointEffect,
+    effects,
 };
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -24,6 +25,9 @@ pub struct DrawingDocument<'a> {
     pub part: &'a str,
     /// `pass`, `fail`, or `undecided` within the uncertainty.
     pub outcome: &'static str,
+    /// The same by the compensated program; absent unless it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub compensated_outcome: Option<&'static str>,
     /// Errors each of whose corrections alone brings all characteristics into tolerance, the best first; empty where they are.
     pub sufficient: Vec<String>,
     /// Steps of the tools.
@@ -68,11 +72,23 @@ pub struct CharacteristicEntry<'a> {
     pub used_ratio: f64,
     /// `pass`, `fail` or `undecided`.
     pub outcome: &'static str,
+    /// By the compensated program; absent unless it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub compensated: Option<CompensatedEntry>,
     /// From the Monte Carlo run; absent if there was none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub monte_carlo: Option<DrawnEntry>,
     /// The errors that matter most, the largest first.
     pub errors: Vec<ErrorEffectEntry>,
+}
+
+/// A characteristic by the compensated program.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct CompensatedEntry {
+    /// Its value, mm.
+    pub value_mm: f64,
+    /// `pass`, `fail` or `undecided`, with the u of before.
+    pub outcome: &'static str,
 }
 
 /// A Monte Carlo run for a part.
@@ -160,9 +176,18 @@ impl<'a> DrawingDocument<'a> {
         let part = &study.part;
         let drawn = prediction.drawn.as_ref();
         let asked = part.characteristics.iter().zip(&prediction.values).enumerate();
+        let corrected = prediction.corrected.as_ref();
+        let compensated = |i: usize| {
+            let entry = |c: &CorrectedPart| CompensatedEntry {
+                value_mm: c.values_mm[i],
+                outcome: c.outcomes[i].word(),
+            };
+            corrected.map(entry)
+        };
         let entry = |(i, (asked, value))| {
             let drawn = drawn.map(|d| d.characteristics[i]);
-            CharacteristicEntry::of(&part.features, asked, (value, drawn))
+            let entry = CharacteristicEntry::of(&part.features, asked, (value, drawn));
+            CharacteristicEntry { compensated: compensated(i), ..entry }
         };
         let many = |(s, drawn): (Sampling, &ManyParts)| ManyEntry {
             samples: s.samples,
@@ -175,6 +200,7 @@ impl<'a> DrawingDocument<'a> {
             name: &study.name,
             part: &part.name,
             outcome: prediction.outcome.word(),
+            compensated_outcome: corrected.map(|c| c.outcome.word()),
             sufficient: prediction.sufficient.iter().map(ToString::to_string).collect(),
             steps: prediction.steps,
             errors_without_u: &prediction.errors_without_u,
@@ -212,6 +238,7 @@ impl<'a> CharacteristicEntry<'a> {
             high_mm,
             used_ratio: value.used_ratio,
             outcome: value.outcome.word(),
+            compensated: None,
             monte_carlo: drawn
                 .map(|d| DrawnEntry { values: d.spread.into(), good_ratio: d.good_ratio }),
             errors: effects(value, MOST_ERRORS).map(effect).collect(),

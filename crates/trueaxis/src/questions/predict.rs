@@ -5,11 +5,14 @@ use crate::files::output::Output;
 use crate::report;
 use serde_json::Value;
 use std::path::PathBuf;
+use trueaxis_correct::compensate::program::{ProgramOptions, compensate_program};
 use trueaxis_input::{Diagnostics, Files, Place};
+use trueaxis_nc::Program;
 use trueaxis_part::qif::results::{Found, results, results_csv};
 use trueaxis_part::tolerance::Outcome;
 use trueaxis_predict::predict::drawing::{
-    PartPrediction, PartStudy, PartValue, is_part_study, predict_part, read_part_study,
+    CorrectedPart, PartPrediction, PartStudy, PartValue, is_part_study, predict_corrected,
+    predict_part, read_part_study,
 };
 use trueaxis_predict::predict::holes::{
     HolePrediction, HoleSet, HoleStudy, is_hole_study, predict_holes, read_hole_study,
@@ -26,6 +29,8 @@ pub struct Predict {
     pub samples: Option<String>,
     /// Random seed instead of the study's.
     pub seed: Option<u64>,
+    /// Whether a part is judged by its program compensated for the machine, too.
+    pub compensated: bool,
     /// Where the characteristics of a part go: a table (`csv`) or a QIF document (`qif`), by the extension.
     pub results: Option<PathBuf>,
 }
@@ -63,8 +68,13 @@ impl Predict {
         }
     }
 
-    /// What keeps the results from being written.
+    /// What keeps the results from being written, or the program from being compensated.
     fn check_results(&self, is_part: bool, problems: &mut Diagnostics) {
+        if self.compensated && !is_part {
+            let message = "only the program of a part is compensated".to_owned();
+            let hint = "leave it out; or name a study of a part";
+            problems.error("contradiction", Place::whole("--compensated"), message, hint);
+        }
         let Some(path) = &self.results else { return };
         let place = Place::whole("--results");
         if !is_part {
@@ -111,6 +121,24 @@ impl Predict {
                 None
             }
         }
+    }
+
+    /// The part by its program as `compensate program` writes it; nothing where that cannot be.
+    fn compensated(
+        &self,
+        study: &PartStudy,
+        prediction: &PartPrediction,
+        problems: &mut Diagnostics,
+    ) -> Option<CorrectedPart> {
+        let job = &study.job;
+        let options = ProgramOptions::default();
+        let (rewritten, found) =
+            compensate_program(&job.machine, &job.program, &job.setup, &options);
+        problems.append(found);
+        let rewritten = rewritten?;
+        problems.append(rewritten.unproved);
+        let program = Program::new(job.program.file(), rewritten.text, job.control);
+        predict_corrected(study, prediction, &program, problems)
     }
 
     fn place(&self) -> Place {
@@ -182,7 +210,10 @@ impl Question for Predict {
                 }
             }
             PredictInput::Drawing(study) => {
-                let prediction = predict_part(&study, progress, problems)?;
+                let mut prediction = predict_part(&study, progress, problems)?;
+                if self.compensated {
+                    prediction.corrected = Some(self.compensated(&study, &prediction, problems)?);
+                }
                 let results = self.results_of(&study, &prediction, problems);
                 Some(Predicted::Drawing(study, Box::new(prediction), results))
             }
