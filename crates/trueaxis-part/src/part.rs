@@ -12,7 +12,7 @@ mod file;
 mod pattern;
 mod values;
 
-pub use characteristic::{Characteristic, Kind, Limits};
+pub use characteristic::{Characteristic, Datum, Kind, Limits};
 pub(crate) use feature::across;
 pub use feature::{Feature, Geometry, Sampled, every_second};
 

@@ -22,7 +22,7 @@ mod topology;
 mod trial;
 mod units;
 
-use crate::part::Kind;
+use crate::part::{Datum, Kind};
 use characteristics::Limits;
 use collect::Collected;
 use document::{Reader, text_of};
@@ -76,7 +76,7 @@ struct Asked {
     limits: Limits,
     note: Option<String>,
     of: usize,
-    datums: Vec<usize>,
+    datums: Vec<Datum>,
     place: Place,
 }
 

@@ -1,4 +1,4 @@
-//! Datum systems against an independent program, `oracles/datum_systems.py` (scipy).
+//! Datum systems and common datums against independent programs, `oracles/datum_systems.py` and `oracles/common_datums.py` (scipy).
 
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -66,9 +66,19 @@ fn oracle_datum_systems() {
     let part = source.read(|root| Part::read(root, Path::new("")));
     let problems = source.finish();
     let mut part = part.unwrap_or_else(|| panic!("{problems:?}"));
+    let deviation_mm = given(&mut part, &oracle.features);
+    let found = part.evaluate(&deviation_mm).expect("values");
+    assert_eq!(found.len(), due.len());
+    for (found, (name, due)) in found.iter().zip(&due) {
+        assert!((found - due).abs() < 1e-11, "{name}: {found} {due}");
+    }
+}
+
+/// Gives a part the points of an oracle; their deviations come back.
+fn given(part: &mut Part, all: &BTreeMap<String, Points>) -> Vec<f64> {
     let mut deviation_mm = Vec::new();
     for feature in &mut part.features {
-        let given = &oracle.features[&feature.name];
+        let given = &all[&feature.name];
         let points = given.points.iter().zip(&given.normals).map(|(p, n)| {
             let normal = Vec3::from(*n);
             SurfacePoint { point_mm: Vec3::from(*p), normal, axis: normal, line: 0 }
@@ -80,9 +90,69 @@ fn oracle_datum_systems() {
         }
         deviation_mm.extend(&given.deviations_mm);
     }
-    let found = part.evaluate(&deviation_mm).expect("values");
-    assert_eq!(found.len(), due.len());
-    for (found, (name, due)) in found.iter().zip(&due) {
-        assert!((found - due).abs() < 1e-11, "{name}: {found} {due}");
+    deviation_mm
+}
+
+#[derive(Deserialize)]
+struct Commons {
+    cases: Vec<Common>,
+}
+
+#[derive(Deserialize)]
+struct Common {
+    kind: String,
+    seed: u32,
+    features: BTreeMap<String, Points>,
+    values: BTreeMap<String, f64>,
+}
+
+/// The part of a kind of case; none where the value has no characteristic of its own.
+fn common_part(kind: &str) -> Option<String> {
+    let round = |name: &str, z: u32, diameter: u32, is_hole: bool, length: u32| {
+        let shape = if is_hole { "hole" } else { "cylinder" };
+        format!(
+            "[feature.{name}]\n{shape} = {{ at = \"10 5 {z} mm\", axis = \"0 0 1\", diameter = \"{diameter} mm\", length = \"{length} mm\" }}\n"
+        )
+    };
+    let seats = |[a, b, c]: [bool; 3]| {
+        [round("A", 0, 30, a, 12), round("B", 88, 25, b, 12), round("C", 40, 40, c, 20)].concat()
+            + "[[characteristic]]\ncoaxiality = \"9 um\"\nof = \"C\"\ndatum = \"A-B\"\n"
+    };
+    let text = match kind {
+        "shafts" => seats([false; 3]),
+        "holes" => seats([true; 3]),
+        "mixed" => seats([false, true, false]),
+        "pads" => {
+            let pad = |name: &str, x: i32| {
+                format!(
+                    "[feature.{name}]\nplane = {{ at = \"{x} 0 0 mm\", normal = \"0 0 -1\", along = \"1 0 0\", size = \"20 60 mm\" }}\n"
+                )
+            };
+            [pad("A", -40), pad("B", 40)].concat()
+                + "[feature.T]\nplane = { at = \"0 0 20 mm\", normal = \"0 0 1\", along = \"1 0 0\", size = \"100 60 mm\" }\n\
+                   [[characteristic]]\nparallelism = \"9 um\"\nof = \"T\"\ndatum = \"A-B\"\n"
+        }
+        _ => return None,
+    };
+    Some(format!("name = \"p\"\n{text}"))
+}
+
+#[test]
+fn oracle_common_datums() {
+    let oracle: Commons =
+        serde_json::from_str(include_str!("data/common_datums.json")).expect("the data");
+    let mut count = 0;
+    for case in &oracle.cases {
+        let Some(text) = common_part(&case.kind) else { continue };
+        let source = SourceText::from(&Files::none(), "p.toml", &text);
+        let part = source.read(|root| Part::read(root, Path::new("")));
+        let problems = source.finish();
+        let mut part = part.unwrap_or_else(|| panic!("{problems:?}"));
+        let deviation_mm = given(&mut part, &case.features);
+        let found = part.evaluate(&deviation_mm).expect("values")[0];
+        let due = case.values.values().next().expect("a value");
+        assert!((found - due).abs() < 1e-9, "{} {}: {found} {due}", case.kind, case.seed);
+        count += 1;
     }
+    assert_eq!(count, 12);
 }

@@ -31,6 +31,12 @@ fn part(asked: &[(&str, &str, &str)]) -> Part {
     part.unwrap_or_else(|| panic!("{:?}", problems.iter().map(|p| &p.message).collect::<Vec<_>>()))
 }
 
+fn read_part(text: &str) -> Result<Part, Vec<String>> {
+    let source = SourceText::from(&Files::none(), "p.toml", text);
+    let part = source.read(|root| Part::read(root, Path::new("")));
+    part.ok_or_else(|| source.finish().iter().map(|p| p.message.clone()).collect())
+}
+
 /// The values after a feature was changed by so much along its normals.
 fn values(
     asked: &[(&str, &str, &str)],
@@ -247,6 +253,78 @@ fn law_straightness_and_the_run_out_of_a_face() {
     close(&values(&[("total_run_out", "top", "hole")], "top", &leaning), &[9.95e-3], 1e-9);
 }
 
+/// Two seats of a shaft, one 4 µm off along X, the other −2 µm: their common axis goes through the middles of both, however large each was made;
+/// a seat between them is off it by what the line is off there: 4 − 6 (z − 5)/90 µm, twice that at its lower end z = 45.25 of coaxiality.
+#[test]
+fn law_a_common_axis_goes_through_both_seats() {
+    let seat = |name: &str, z: u32, diameter: u32| {
+        format!(
+            "[feature.{name}]\ndatum = \"{name}\"\ncylinder = {{ at = \"0 0 {z} mm\", axis = \"0 0 1\", diameter = \"{diameter} mm\", length = \"10 mm\" }}\n"
+        )
+    };
+    let face = "[feature.face]\nplane = { at = \"0 0 100 mm\", normal = \"0 0 1\", size = \"20 20 mm\" }\n";
+    let asked = |kind: &str, of: &str, datum: &str| {
+        format!("[[characteristic]]\n{kind} = \"20 um\"\nof = \"{of}\"\ndatum = \"{datum}\"\n")
+    };
+    let text = [
+        "name = \"p\"\n",
+        &seat("A", 0, 30),
+        &seat("C", 45, 40),
+        &seat("B", 90, 25),
+        face,
+        &asked("coaxiality", "C", "A-B"),
+        &asked("coaxiality", "C", "B-A"),
+        &asked("circular_run_out", "C", "A-B"),
+        &asked("perpendicularity", "face", "A-B"),
+        &asked("parallelism", "C", "A-B"),
+    ];
+    let part = read_part(&text.concat()).unwrap_or_else(|p| panic!("{p:?}"));
+    for [larger, smaller] in [[0.0, 0.0], [20e-3, 10e-3], [-5e-3, 7e-3]] {
+        let by = |name: &str, p: &SurfacePoint| match name {
+            "A" => p.normal.x * 4e-3 + larger,
+            "B" => p.normal.x * -2e-3 - smaller,
+            _ => 0.0,
+        };
+        let of = |f: &trueaxis_part::part::Feature| {
+            f.points.iter().map(|p| by(&f.name, p)).collect::<Vec<f64>>()
+        };
+        let deviation_mm: Vec<f64> = part.features.iter().flat_map(of).collect();
+        let found = part.evaluate(&deviation_mm).expect("values");
+        let line = |z: f64| 4e-3 - 6e-3 * (z - 5.0) / 90.0;
+        let off = 2.0 * line(45.25);
+        // The face leans by 6 µm on 90 mm over the 19.5 mm between its outermost points.
+        let due = [off, off, off, 19.5 * 6e-3 / 90.0, 9.5 * 6e-3 / 90.0];
+        close(&found, &due, 2e-5);
+    }
+}
+
+/// Two pads, one 5 µm higher: the plane on both leans by 5 µm on the 80 mm between their middles.
+#[test]
+fn law_a_common_plane_lies_on_both_pads() {
+    let pad = |name: &str, x: i32| {
+        format!(
+            "[feature.{name}]\nplane = {{ at = \"{x} 0 0 mm\", normal = \"0 0 -1\", along = \"1 0 0\", size = \"20 60 mm\" }}\n"
+        )
+    };
+    let text = [
+        "name = \"p\"\n",
+        &pad("one", -40),
+        &pad("other", 40),
+        "[feature.top]\nplane = { at = \"0 0 20 mm\", normal = \"0 0 1\", along = \"1 0 0\", size = \"100 60 mm\" }\n",
+        "[[characteristic]]\nparallelism = \"20 um\"\nof = \"top\"\ndatum = \"one-other\"\n",
+        "[feature.pads]\nplane = { at = \"-40 0 0 mm\", normal = \"0 0 -1\", along = \"1 0 0\", size = \"20 60 mm\" }\nrepeat = { count = 2, step = \"80 0 0 mm\" }\n",
+        "[[characteristic]]\nparallelism = \"20 um\"\nof = \"top\"\ndatum = \"pads\"\n",
+    ];
+    let part = read_part(&text.concat()).unwrap_or_else(|p| panic!("{p:?}"));
+    let of = |f: &trueaxis_part::part::Feature| {
+        let high = if matches!(f.name.as_str(), "other" | "pads_2") { 5e-3 } else { 0.0 };
+        vec![high; f.points.len()]
+    };
+    let deviation_mm: Vec<f64> = part.features.iter().flat_map(of).collect();
+    let lean = 99.5 * 5e-3 / 80.0;
+    close(&part.evaluate(&deviation_mm).expect("values"), &[lean; 2], 1e-8);
+}
+
 /// What a reader says of datums that hold nothing, leave what matters free, or stand at another angle.
 #[test]
 fn datums_that_do_not_do_are_refused_by_name() {
@@ -277,4 +355,10 @@ fn datums_that_do_not_do_are_refused_by_name() {
     refused(("total_run_out", "wall", "hole"), "wrong-angle");
     refused(("coaxiality", "beside", "hole"), "wrong-place");
     refused(("circular_run_out", "beside", "hole"), "wrong-place");
+    refused(("coaxiality", "shaft", "hole-beside"), "wrong-place");
+    refused(("coaxiality", "shaft", "hole-hole"), "bad-datum");
+    refused(("coaxiality", "shaft", "hole-nothing"), "unknown-feature");
+    refused(("coaxiality", "shaft", "hole-"), "unknown-feature");
+    refused(("coaxiality", "shaft", "hole-shaft"), "wrong-feature");
+    refused(("position", "shaft", "base-wall-hole"), "bad-datum");
 }

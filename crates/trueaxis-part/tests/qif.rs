@@ -263,7 +263,13 @@ fn each_thing_that_is_left_out_is_named() {
             "107",
             "no shape of the zone",
         ),
-        ("SimpleDatum", "CompoundDatum".to_owned(), "102", "a compound datum is not evaluated"),
+        (
+            "SimpleDatum",
+            "MeasuredDatumFeature".to_owned(),
+            "102",
+            "a measured datum feature is not evaluated",
+        ),
+        ("SimpleDatum", "CompoundDatum".to_owned(), "102", "the compound datum has"),
         (
             "<MaterialModifier>NONE<",
             "<MaterialModifier>MAXIMUM<".to_owned(),

@@ -59,7 +59,7 @@ fn due(part: &Part, asked: &Characteristic, found: &Found) -> Line {
         name: token(&asked.name),
         kind: qif_kind(asked.kind),
         features: names(&asked.features),
-        datums: names(&asked.datums),
+        datums: asked.datums.iter().map(|d| names(&d.features).join("-")).collect(),
         nominal_mm,
         limits_mm,
         value_mm: nominal_mm.unwrap_or(0.0) + found.value_mm,
@@ -302,8 +302,8 @@ fn a_table_is_read_back() {
         assert_eq!(rows.len(), part.characteristics.len() + 1);
         for ((row, asked), found) in rows[1..].iter().zip(&part.characteristics).zip(&found) {
             let plain = |cell: &str| cell.strip_prefix('\'').unwrap_or(cell).to_owned();
-            let labels: Vec<&str> =
-                asked.datums.iter().map(|d| part.features[*d].label()).collect();
+            let labels: Vec<String> =
+                asked.datums.iter().map(|d| d.label(&part.features)).collect();
             assert_eq!(plain(&row[0]), asked.name);
             assert_eq!(
                 [&row[1], &row[2], &row[3]],

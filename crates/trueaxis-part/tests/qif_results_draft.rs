@@ -6,7 +6,7 @@ mod every;
 use every::{every, found, housing, odd};
 use std::path::Path;
 use trueaxis_input::{Diagnostics, SourceText};
-use trueaxis_part::part::{Characteristic, Geometry, Kind, Limits, Part};
+use trueaxis_part::part::{Characteristic, Datum, Geometry, Kind, Limits, Part};
 use trueaxis_part::qif::draft;
 use trueaxis_part::qif::results::results;
 
@@ -34,7 +34,7 @@ fn is_known(part: &Part, asked: &Characteristic) -> bool {
         matches!(shape, Plane { .. } | Cylinder { .. } | Cone { .. } | Sphere { .. })
     };
     let is_pattern = asked.features.len() > 1;
-    asked.features.iter().chain(&asked.datums).all(is_shape)
+    asked.features.iter().chain(asked.datums.iter().flat_map(|d| &d.features)).all(is_shape)
         && !(asked.kind.is_located() && asked.datums.is_empty())
         && !(asked.kind == Kind::Position && is_pattern)
 }
@@ -95,7 +95,10 @@ fn law_the_reader_of_product_definitions_reads_the_nominal_half() {
                 let twin = read.characteristics.iter().find(|c| c.name == name);
                 let twin = twin.unwrap_or_else(|| panic!("{name} is left out: {left:?}"));
                 assert_eq!((twin.kind, &twin.datums.len()), (asked.kind, &asked.datums.len()));
-                assert_eq!(names(&read, &twin.datums), names(&part, &asked.datums));
+                let all = |of: &[Datum]| {
+                    of.iter().flat_map(|d| d.features.clone()).collect::<Vec<usize>>()
+                };
+                assert_eq!(names(&read, &all(&twin.datums)), names(&part, &all(&asked.datums)));
                 let limits = |l: &Limits| match *l {
                     Limits::Zone { tolerance_mm } => [tolerance_mm; 2],
                     Limits::Size { low_mm, high_mm } => [low_mm, high_mm],
@@ -105,7 +108,11 @@ fn law_the_reader_of_product_definitions_reads_the_nominal_half() {
                 let other = &read.features[twin.features[0]];
                 assert_same_shape(&own.geometry, &other.geometry, &own.name);
                 // A datum without a letter has its name as one.
-                let is_datum = |p: &Part, f| p.characteristics.iter().any(|c| c.datums.contains(f));
+                let is_datum = |p: &Part, f: &usize| {
+                    p.characteristics
+                        .iter()
+                        .any(|c| c.datums.iter().any(|d| d.features.contains(f)))
+                };
                 let letter = own.letter.as_ref().or(is_datum(&part, feature).then_some(&own.name));
                 let is_asked = is_datum(&read, &twin.features[0]);
                 assert_eq!(other.letter.as_ref(), letter.filter(|_| is_asked), "{}", own.name);

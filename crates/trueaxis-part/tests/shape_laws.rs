@@ -110,6 +110,20 @@ fn law_the_middle_of_a_tongue_as_datum() {
     near(values(&slot, &narrow)[0], 6e-3, 1e-8);
 }
 
+/// The middle of two opposite faces as a common datum: one of them 4 µm farther out moves it by 2 µm.
+#[test]
+fn law_the_middle_of_two_faces_as_datum() {
+    let faces = "[feature.near]\ndatum = \"N\"\nplane = { at = \"0 -30 15 mm\", normal = \"0 -1 0\", size = \"100 30 mm\" }\n\
+        [feature.far]\ndatum = \"F\"\nplane = { at = \"0 30 15 mm\", normal = \"0 1 0\", size = \"100 30 mm\" }\n";
+    let text =
+        [BASE, SLOT, faces, &asked("symmetry", "slot", "N-F"), &asked("position", "slot", "A|F-N")]
+            .concat();
+    let farther = |f: &Feature, _: &SurfacePoint| if f.name == "far" { 4e-3 } else { 0.0 };
+    for found in values(&text, &farther) {
+        near(found, 4e-3, 1e-8);
+    }
+}
+
 /// A keyway whose sides lie 3 µm off, 10 to 15 mm from the axis of its shaft: the zone turns about the axis until both ends are equally far off,
 /// 3 µm · (b − a)/(b + a), a and b the distances of its outermost rows from the axis.
 #[test]

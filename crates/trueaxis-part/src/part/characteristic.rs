@@ -1,5 +1,7 @@
 //! What a drawing asks of features.
 
+use super::Feature;
+
 /// The kind of a characteristic, ISO 1101 and ISO 14405-1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
@@ -52,6 +54,35 @@ pub enum Limits {
     },
 }
 
+/// A datum: a feature, or several that are one together, a common datum (ISO 5459).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Datum {
+    /// The numbers of its features.
+    pub features: Vec<usize>,
+}
+
+impl Datum {
+    /// Its letter or name; of a common datum all of them: `A-B`.
+    pub fn label(&self, features: &[Feature]) -> String {
+        let labels: Vec<&str> = self.features.iter().map(|f| features[*f].label()).collect();
+        labels.join("-")
+    }
+
+    /// The names of its features: `front-back`.
+    pub fn name(&self, features: &[Feature]) -> String {
+        let names: Vec<&str> = self.features.iter().map(|f| features[*f].name.as_str()).collect();
+        names.join("-")
+    }
+
+    /// The only feature of it, if it is no common datum.
+    pub fn single(&self) -> Option<usize> {
+        match self.features[..] {
+            [one] => Some(one),
+            _ => None,
+        }
+    }
+}
+
 /// One line of the drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Characteristic {
@@ -63,8 +94,8 @@ pub struct Characteristic {
     pub of: String,
     /// Its number, or those of the members of the pattern.
     pub features: Vec<usize>,
-    /// To which ones, the first of them first; none: to the zero that was set.
-    pub datums: Vec<usize>,
+    /// To which datums, the first of them first; none: to the zero that was set.
+    pub datums: Vec<Datum>,
     /// What is allowed.
     pub limits: Limits,
 }

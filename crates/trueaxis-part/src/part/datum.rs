@@ -5,11 +5,13 @@
 //!               ──second, with what the first leaves free──> ──third──> Motion: from the nominal frame to that of the datums
 //! ```
 //!
-//! Docs/model.md eq. 248 and 249.
+//! Docs/model.md eq. 248, 249 and 324.
+
+mod several;
 
 use super::feature::across;
 use super::values::{Surface, unfit};
-use super::{Feature, Geometry};
+use super::{Datum, Feature, Geometry};
 use crate::Error;
 use trueaxis_form::circle::Fitter;
 use trueaxis_form::placed::{Freedom, Motion, Twist, place};
@@ -56,18 +58,20 @@ impl DatumFrame {
     }
 
     /// On the datum features as they were cut, in their order.
-    pub fn on(surfaces: &[Surface<'_>], datums: &[usize], free: Freedom) -> Result<Self, Error> {
+    pub fn on(surfaces: &[Surface<'_>], datums: &[Datum], free: Freedom) -> Result<Self, Error> {
         let mut frame = Self { motion: Motion::identity(), free };
         for (rank, datum) in datums.iter().enumerate() {
-            let surface = &surfaces[*datum];
-            let step = match rank {
-                0 if !matches!(surface.feature.geometry, Geometry::Slot { .. }) => {
+            let members: Vec<&Surface<'_>> = datum.features.iter().map(|f| &surfaces[*f]).collect();
+            let step = match members[..] {
+                [surface] if rank == 0 && surface.feature.geometry.median().is_none() => {
                     surface.first()?
                 }
-                _ => frame.next(surface)?,
+                [surface] => frame.next(surface)?,
+                _ => frame.common(&members)?,
             };
             frame.motion = frame.motion * step;
-            frame.free = frame.free.held_by(&held(surface.feature));
+            let all: Vec<[Vec3; 2]> = members.iter().flat_map(|s| held(s.feature)).collect();
+            frame.free = frame.free.held_by(&all);
         }
         Ok(frame)
     }
@@ -126,6 +130,28 @@ impl DatumFrame {
             _ => Err(no_datum()),
         }
     }
+}
+
+/// The element of a datum alone; of a common datum that of its first feature, as the others let it lie.
+pub(super) fn associated(
+    surfaces: &[Surface<'_>],
+    datum: &Datum,
+    features: &[Feature],
+) -> Result<Shape, Error> {
+    if let Some(one) = datum.single() {
+        return surfaces[one].datum();
+    }
+    let free = all_degrees(features);
+    let motion = DatumFrame::on(surfaces, std::slice::from_ref(datum), free)?.motion;
+    let geometry = surfaces[datum.features[0]].feature.geometry;
+    let (element, at, direction) = match geometry.median().unwrap_or(geometry) {
+        Geometry::Plane { at_mm, normal, .. } => (Element::Plane, at_mm, normal),
+        Geometry::Cylinder { at_mm, axis, .. } => (Element::Line, at_mm, axis),
+        _ => return Err(no_datum()),
+    };
+    let point_mm = (motion * Point::from_vector(at)).vector();
+    let direction = motion.linear() * direction;
+    Ok(Shape { element, point_mm, direction, radius_mm: 0.0, half_angle_rad: 0.0 })
 }
 
 fn no_datum() -> Error {

@@ -1,9 +1,9 @@
 //! From the cut surface to the values of the characteristics.
 
-use super::datum::{DatumFrame, all_degrees, held};
+use super::datum::{self, DatumFrame, all_degrees, held};
 use super::feature::across;
 use super::pattern;
-use super::{Characteristic, Feature, Geometry, Kind, Part};
+use super::{Characteristic, Datum, Feature, Geometry, Kind, Part};
 use crate::Error;
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -93,14 +93,14 @@ impl Part {
 /// Datum systems of a part, each found once.
 struct Systems<'p> {
     features: &'p [Feature],
-    found: Vec<(&'p [usize], DatumFrame)>,
+    found: Vec<(&'p [Datum], DatumFrame)>,
 }
 
 impl<'p> Systems<'p> {
     fn frame(
         &mut self,
         surfaces: &[Surface<'_>],
-        datums: &'p [usize],
+        datums: &'p [Datum],
     ) -> Result<DatumFrame, Error> {
         if let Some((_, frame)) = self.found.iter().find(|(of, _)| *of == datums) {
             return Ok(frame.clone());
@@ -137,8 +137,8 @@ fn of_one<'p>(
     surfaces: &[Surface<'_>],
     systems: &mut Systems<'p>,
 ) -> Result<f64, Error> {
-    let datum = || match asked.datums[..] {
-        [datum] => surfaces[datum].datum(),
+    let datum = || match &asked.datums[..] {
+        [datum] => datum::associated(surfaces, datum, systems.features),
         _ => Err(unfit("a characteristic without the datum that it needs")),
     };
     let is_single = asked.datums.len() == 1;

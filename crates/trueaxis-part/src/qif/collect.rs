@@ -5,6 +5,7 @@ use super::document::{Reader, Reason, in_words, shown, text_of};
 use super::features::{self, Form};
 use super::units::Units;
 use super::{Asked, Draft, Drafted, LeftOut, datums, text};
+use crate::part;
 use roxmltree::Node;
 use std::collections::{BTreeMap, BTreeSet};
 use trueaxis_input::{Diagnostics, Place};
@@ -96,11 +97,11 @@ impl<'r, 'd, 't> Collected<'r, 'd, 't> {
         &self,
         demand: &Demand,
         of: usize,
-        datums: &[usize],
+        datums: &[part::Datum],
         nominal: Node<'d, 't>,
     ) -> Result<Asked, Reason> {
         let form = &self.features[of].form;
-        let forms: Vec<&Form> = datums.iter().map(|d| &self.features[*d].form).collect();
+        let forms: Vec<&Form> = datums.iter().map(|d| &self.features[d.features[0]].form).collect();
         demand.check(form, &forms)?;
         let (limits, note) = demand.limits_of(form)?;
         Ok(Asked {
@@ -116,9 +117,14 @@ impl<'r, 'd, 't> Collected<'r, 'd, 't> {
     }
 
     /// The datum features of a definition in their order, with their letters.
-    fn datums(&mut self, definition: Node<'d, 't>) -> Result<Vec<usize>, Reason> {
+    fn datums(&mut self, definition: Node<'d, 't>) -> Result<Vec<part::Datum>, Reason> {
+        let frame = datums::frame(self.reader, definition)?;
+        frame.into_iter().map(|members| self.datum(members)).collect()
+    }
+
+    fn datum(&mut self, members: Vec<datums::Datum<'d, 't>>) -> Result<part::Datum, Reason> {
         let mut found = Vec::new();
-        for datum in datums::frame(self.reader, definition)? {
+        for datum in members {
             let mut all = Vec::new();
             for reference in &datum.features {
                 features::extend(&mut all, self.reader, *reference)?;
@@ -143,7 +149,7 @@ impl<'r, 'd, 't> Collected<'r, 'd, 't> {
             }
             found.push(index);
         }
-        Ok(found)
+        Ok(part::Datum { features: found })
     }
 
     /// The feature of a nominal, read once.
@@ -208,7 +214,7 @@ impl<'r, 'd, 't> Collected<'r, 'd, 't> {
     pub fn unused(&mut self, draft: &mut Draft, problems: &mut Diagnostics) {
         let mut needed: Vec<bool> = vec![false; draft.features.len()];
         for asked in &draft.characteristics {
-            for index in asked.datums.iter().chain([&asked.of]) {
+            for index in asked.datums.iter().flat_map(|d| &d.features).chain([&asked.of]) {
                 needed[*index] = true;
             }
         }

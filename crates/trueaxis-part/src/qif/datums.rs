@@ -29,11 +29,11 @@ pub(super) fn letters(reader: &Reader<'_, '_>) -> Vec<String> {
     reader.ending("DatumDefinition").filter_map(|n| text_of(n, "DatumLabel")).collect()
 }
 
-/// The datums of a frame in their order of precedence; none where the definition of a characteristic names no frame.
+/// The datums of a frame in their order of precedence, of a common datum each of its members; none where the definition of a characteristic names no frame.
 pub(super) fn frame<'d, 't>(
     reader: &Reader<'d, 't>,
     definition: Node<'d, 't>,
-) -> Result<Vec<Datum<'d, 't>>, Reason> {
+) -> Result<Vec<Vec<Datum<'d, 't>>>, Reason> {
     let key = "DatumReferenceFrameId";
     let Some(frame) = reader.follow(definition, key, "DatumReferenceFrame")? else {
         return Ok(Vec::new());
@@ -42,23 +42,45 @@ pub(super) fn frame<'d, 't>(
     let mut ranked = Vec::new();
     for datum in child(frame, "Datums").into_iter().flat_map(elements) {
         let rank = rank(datum)?;
-        let Some(simple) = child(datum, "SimpleDatum") else {
-            let kind = elements(datum).map(name).find(|n| *n != "Precedence").unwrap_or("Datum");
-            return Err(Reason::plain(format!("a {} is not evaluated", in_words(kind))));
-        };
-        ranked.push((rank, simple_datum(reader, simple)?));
+        ranked.push((rank, members(reader, datum)?));
         if ranked.len() > 3 {
             return Err(Reason::plain("a datum reference frame of more than three datums"));
         }
     }
     ranked.sort_by_key(|(rank, _)| *rank);
-    for (due, (rank, datum)) in ranked.iter().enumerate() {
+    for (due, (rank, members)) in ranked.iter().enumerate() {
         if *rank != due {
-            let message = format!("the precedence of datum {} leaves no order", datum.letter);
+            let letters: Vec<&str> = members.iter().map(|d| d.letter.as_str()).collect();
+            let letter = letters.join("-");
+            let message = format!("the precedence of datum {letter} leaves no order");
             return Err(Reason::fault("bad-datum", frame, message));
         }
     }
     Ok(ranked.into_iter().map(|(_, datum)| datum).collect())
+}
+
+/// A simple datum, or those of a compound one in their sequence.
+fn members<'d, 't>(
+    reader: &Reader<'d, 't>,
+    datum: Node<'d, 't>,
+) -> Result<Vec<Datum<'d, 't>>, Reason> {
+    if let Some(simple) = child(datum, "SimpleDatum") {
+        return Ok(vec![simple_datum(reader, simple)?]);
+    }
+    let Some(compound) = child(datum, "CompoundDatum") else {
+        let is_order = |n: &&str| matches!(*n, "Precedence" | "SequenceNumber");
+        let kind = elements(datum).map(name).find(|n| !is_order(n)).unwrap_or("Datum");
+        return Err(Reason::plain(format!("a {} is not evaluated", in_words(kind))));
+    };
+    only(compound, &["Datum"], "the compound datum")?;
+    let mut all = Vec::new();
+    for member in elements(compound) {
+        if child(member, "SimpleDatum").is_none() {
+            return Err(Reason::plain("a compound datum in a compound datum is not evaluated"));
+        }
+        all.extend(members(reader, member)?);
+    }
+    Ok(all)
 }
 
 fn rank(datum: Node<'_, '_>) -> Result<usize, Reason> {

@@ -3,6 +3,7 @@
 use super::characteristics::Limits;
 use super::features::{Form, Opening};
 use super::{Asked, Draft, Drafted, LeftOut};
+use crate::part::Datum;
 use trueaxis_geometry::Vec3;
 
 const HEAD: &str = "\
@@ -182,8 +183,12 @@ impl Writer {
         self.text += &format!("{} = {value}{note}\n", asked.kind.key());
         self.text += &format!("of = {}\n", quoted(&draft.features[asked.of].name));
         if !asked.datums.is_empty() {
-            let labels: Vec<&str> =
-                asked.datums.iter().map(|d| draft.features[*d].label()).collect();
+            let label = |d: &Datum| {
+                let all: Vec<&str> =
+                    d.features.iter().map(|f| draft.features[*f].label()).collect();
+                all.join("-")
+            };
+            let labels: Vec<String> = asked.datums.iter().map(label).collect();
             self.text += &format!("datum = {}\n", quoted(&labels.join("|")));
         }
     }

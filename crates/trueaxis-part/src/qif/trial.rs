@@ -48,7 +48,7 @@ fn refuse(draft: &mut Draft, writer: &Writer, errors: &[&Diagnostic]) {
     }
     let mut kept = Vec::new();
     for (one, refused) in std::mem::take(&mut draft.characteristics).into_iter().zip(asked) {
-        let all = one.datums.iter().chain([&one.of]);
+        let all = one.datums.iter().flat_map(|d| &d.features).chain([&one.of]);
         let of_feature = all.filter_map(|i| {
             let reason = features[*i].as_ref()?;
             Some(format!("feature {}: {reason}", draft.features[*i].id))
@@ -78,6 +78,7 @@ pub(super) fn keep(draft: &mut Draft, kept: &[bool]) {
     draft.features.retain(|_| each.next().copied().unwrap_or(false));
     for asked in &mut draft.characteristics {
         asked.of = index[asked.of];
-        asked.datums.iter_mut().for_each(|d| *d = index[*d]);
+        let datums = asked.datums.iter_mut().flat_map(|d| &mut d.features);
+        datums.for_each(|d| *d = index[*d]);
     }
 }

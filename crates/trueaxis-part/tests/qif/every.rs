@@ -27,6 +27,8 @@ datum = "D"
 cylinder = { at = "10 5 20 mm", axis = "0 0 1", diameter = "20 mm", length = "30 mm" }
 [feature.collar]
 cylinder = { at = "10 5 50 mm", axis = "0 0 1", diameter = "12.7 mm", length = "8 mm" }
+[feature.journal]
+cylinder = { at = "10 5 70 mm", axis = "0 0 1", diameter = "9 mm", length = "6 mm" }
 [feature.shoulder]
 plane = { at = "10 5 50 mm", normal = "0 0 1", along = "0 1 0", size = "20 20 mm" }
 [feature.bore]
@@ -62,7 +64,7 @@ repeat = { count = 4, about = "0 0 0 mm", axis = "0 0 1" }
 const TABLE: &str = "x_mm,y_mm,z_mm,nx,ny,nz\n1,2,3,0,0,1\n4,5,6.25,0,0.6,0.8\n";
 
 /// Kind, tolerance, feature, datums.
-const ASKED: [[&str; 4]; 34] = [
+const ASKED: [[&str; 4]; 37] = [
     ["flatness", "10 um", "base", ""],
     ["straightness", "7 um", "shaft", ""],
     ["roundness", "5 um", "taper", ""],
@@ -97,6 +99,9 @@ const ASKED: [[&str; 4]; 34] = [
     ["circular_run_out", "22 um", "collar", "D"],
     ["total_run_out", "23 um", "shoulder", "D"],
     ["perpendicularity", "24 um", "bolts", "A"],
+    ["coaxiality", "25 um", "journal", "D-collar"],
+    ["position", "26 um", "bore", "A|D-collar|B"],
+    ["perpendicularity", "27 um", "shoulder", "collar-D"],
 ];
 
 pub fn part(text: &str) -> Part {

@@ -104,18 +104,29 @@ impl<'d> Reader<'d> {
         }
     }
 
-    /// Names of the features that are the datums of a frame, in their precedence.
+    /// Names of the features that are the datums of a frame, in their precedence; of a common datum with dashes between.
     fn datums(&self, frame: Node<'d, 'd>) -> Vec<String> {
         let datums = child(frame, "Datums").unwrap().children().filter(Node::is_element);
         let one = |(rank, datum): (usize, Node<'d, 'd>)| {
             let due = ["PRIMARY", "SECONDARY", "TERTIARY"][rank];
             assert_eq!(text(datum, "Precedence/PrecedenceEnum"), due);
-            let definition = self.follow(datum, "SimpleDatum/DatumDefinitionId");
-            let features = self.list(definition, "FeatureNominalIds");
-            assert_eq!(features.len(), 1);
-            text(features[0], "Name").to_owned()
+            let Some(compound) = child(datum, "CompoundDatum") else { return self.datum(datum) };
+            let members: Vec<Node<'_, '_>> = compound.children().filter(Node::is_element).collect();
+            assert_eq!(compound.attribute("n"), Some(members.len().to_string().as_str()));
+            for (number, member) in members.iter().enumerate() {
+                assert_eq!(text(*member, "SequenceNumber"), (number + 1).to_string());
+            }
+            let names: Vec<String> = members.iter().map(|m| self.datum(*m)).collect();
+            names.join("-")
         };
         datums.enumerate().map(one).collect()
+    }
+
+    fn datum(&self, datum: Node<'d, 'd>) -> String {
+        let definition = self.follow(datum, "SimpleDatum/DatumDefinitionId");
+        let features = self.list(definition, "FeatureNominalIds");
+        assert_eq!(features.len(), 1);
+        text(features[0], "Name").to_owned()
     }
 }
 

@@ -55,7 +55,7 @@ pub struct CharacteristicEntry<'a> {
     /// The features that are meant: one, or all of the pattern.
     pub features: Vec<&'a str>,
     /// To which features, the first datum first; empty: to the zero that was set.
-    pub datums: Vec<&'a str>,
+    pub datums: Vec<String>,
     /// Its value; of a size the deviation from the nominal one, mm.
     pub value_mm: f64,
     /// Standard uncertainty of that, by the stated uncertainties of the machine, mm.
@@ -229,7 +229,7 @@ impl<'a> CharacteristicEntry<'a> {
             kind: asked.kind.key(),
             feature: &asked.of,
             features: asked.features.iter().map(|f| features[*f].name.as_str()).collect(),
-            datums: asked.datums.iter().map(|d| features[*d].name.as_str()).collect(),
+            datums: asked.datums.iter().map(|d| d.name(features)).collect(),
             value_mm: value.value_mm,
             u_mm: value.u_mm,
             points_mm: value.points_mm,

@@ -46,7 +46,7 @@ pub struct PartCharacteristicEntry<'a> {
     /// Of which feature or pattern.
     pub feature: &'a str,
     /// To which features, the first datum first.
-    pub datums: Vec<&'a str>,
+    pub datums: Vec<String>,
     /// The least value allowed; null for a zone, mm.
     pub low_mm: Option<f64>,
     /// The largest value allowed, mm.
@@ -96,7 +96,7 @@ impl<'a> PartFileDocument<'a> {
                 name: &c.name,
                 kind: c.kind.key(),
                 feature: &c.of,
-                datums: c.datums.iter().map(|d| part.features[*d].name.as_str()).collect(),
+                datums: c.datums.iter().map(|d| d.name(&part.features)).collect(),
                 low_mm,
                 high_mm,
             }

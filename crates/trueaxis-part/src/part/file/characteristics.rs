@@ -2,7 +2,7 @@
 
 use super::positive;
 use crate::part::datum::{all_degrees, described, held};
-use crate::part::{Characteristic, Feature, Geometry, Kind, Limits};
+use crate::part::{Characteristic, Datum, Feature, Geometry, Kind, Limits};
 use trueaxis_form::placed::Freedom;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{Dimension, Item, Section};
@@ -11,6 +11,8 @@ use trueaxis_input::{Dimension, Item, Section};
 const SAME_RAD: f64 = 1e-6;
 /// Nominal axes that lie nearer to each other are one. Unit: mm.
 const SAME_MM: f64 = 1e-3;
+/// Degrees that one datum may hold.
+const MOST_HELD: usize = 5;
 
 pub(super) fn read_characteristic(
     section: &Section<'_>,
@@ -50,10 +52,15 @@ pub(super) fn read_characteristic(
                 false => Some((word, members)),
             }
         });
-    let datums: Option<Vec<usize>> = match section.get("datum") {
+    let datums: Option<Vec<Datum>> = match section.get("datum") {
         None => Some(Vec::new()),
         Some(item) => datum_words(&item).and_then(|words| {
-            let all: Vec<Option<usize>> = words.iter().map(|w| named("datum", w)).collect();
+            let datum = |word: &String| {
+                let parts = parts_of(word, features);
+                let all: Vec<Option<usize>> = parts.iter().map(|w| named("datum", w)).collect();
+                all.into_iter().collect::<Option<Vec<usize>>>().map(|features| Datum { features })
+            };
+            let all: Vec<Option<Datum>> = words.iter().map(datum).collect();
             all.into_iter().collect()
         }),
     };
@@ -71,7 +78,7 @@ pub(super) fn read_characteristic(
         Asked { section, features, kind, of: &features[*member], is_pattern }.check(&datums)?;
     }
     let name = name.unwrap_or_else(|| {
-        let labels: Vec<&str> = datums.iter().map(|d| features[*d].label()).collect();
+        let labels: Vec<String> = datums.iter().map(|d| d.label(features)).collect();
         match labels[..] {
             [] => format!("{} of {of}", kind.name()),
             _ => format!("{} of {of} to {}", kind.name(), labels.join("|")),
@@ -79,6 +86,23 @@ pub(super) fn read_characteristic(
     });
     let of = of.to_owned();
     Some(Characteristic { name, kind, of, features: members, datums, limits: limits? })
+}
+
+/// The names that a datum is made of: itself, the members of a pattern, or what dashes divide, `A-B`.
+fn parts_of<'w>(word: &'w str, features: &'w [Feature]) -> Vec<&'w str> {
+    let is_one = |f: &Feature| f.name == word || f.letter.as_deref() == Some(word);
+    if features.iter().any(is_one) || word.split('-').any(str::is_empty) {
+        return vec![word];
+    }
+    let is_member = |f: &&Feature| f.pattern.as_deref() == Some(word);
+    let members: Vec<&str> = features.iter().filter(is_member).map(|f| f.name.as_str()).collect();
+    match members.is_empty() {
+        false => members,
+        true if word.contains('-') => {
+            word.split('-').map(str::trim).flat_map(|part| parts_of(part, features)).collect()
+        }
+        true => vec![word],
+    }
 }
 
 fn material_condition(section: &Section<'_>, what: &str) {
@@ -108,7 +132,11 @@ fn datum_words(item: &Item<'_>) -> Option<Vec<String>> {
     }
     if words.is_empty() || words.len() > 3 || words.iter().any(String::is_empty) {
         let message = format!("a datum system has one to three datums, not {}", words.len());
-        item.error("bad-datum", message, "datum = \"A\" or datum = \"A|B|C\"");
+        item.error(
+            "bad-datum",
+            message,
+            "datum = \"A\", of a system \"A|B|C\", of a common datum \"A-B\"",
+        );
         return None;
     }
     Some(words)
@@ -158,7 +186,7 @@ impl Asked<'_, '_> {
         None
     }
 
-    fn check(&self, datums: &[usize]) -> Option<()> {
+    fn check(&self, datums: &[Datum]) -> Option<()> {
         self.check_feature()?;
         let (kind, of) = (self.kind, self.of);
         if datums.is_empty() {
@@ -180,23 +208,27 @@ impl Asked<'_, '_> {
             let message = format!("{} has no datum: it is of `{}` alone", kind.name(), of.name);
             return self.refuse("wrong-feature", message, "leave `datum` out");
         }
-        for (rank, datum) in datums.iter().enumerate() {
+        let all: Vec<usize> = datums.iter().flat_map(|d| d.features.iter().copied()).collect();
+        for (rank, datum) in all.iter().enumerate() {
             let datum = &self.features[*datum];
             if std::ptr::eq(datum, of) {
                 let message = format!("`{}` is its own datum", of.name);
                 return self.refuse("wrong-feature", message, "name another feature");
             }
-            if datums[..rank].iter().any(|d| std::ptr::eq(&self.features[*d], datum)) {
+            if all[..rank].iter().any(|d| std::ptr::eq(&self.features[*d], datum)) {
                 let message = format!("the datum `{}` is named twice", datum.label());
                 return self.refuse("bad-datum", message, "name each datum once");
             }
             self.check_datum(datum, datums.len())?;
         }
         if matches!(self.kind, Kind::Coaxiality | Kind::CircularRunOut | Kind::TotalRunOut) {
-            return self.check_axes(&self.features[datums[0]]);
+            for datum in &all {
+                self.check_axes(&self.features[*datum])?;
+            }
+            return Some(());
         }
         if kind == Kind::Symmetry {
-            self.check_median(&self.features[datums[0]])?;
+            self.check_median(&datums[0])?;
         }
         let free = self.freedom(datums)?;
         if kind.is_oriented() { self.check_angle(datums, &free) } else { self.check_place(&free) }
@@ -280,20 +312,29 @@ impl Asked<'_, '_> {
     }
 
     /// The nominal median plane is that of the first datum, or has its axis in it.
-    fn check_median(&self, datum: &Feature) -> Option<()> {
+    fn check_median(&self, datum: &Datum) -> Option<()> {
         let Some(Geometry::Plane { at_mm, normal, .. }) = self.of.geometry.median() else {
             return Some(());
         };
-        let (name, of) = (&datum.name, &self.of.name);
-        let (turned, place) = match datum.geometry {
-            Geometry::Plane { at_mm: at, normal: other, .. }
-            | Geometry::Slot { at_mm: at, across: other, .. } => (normal.cross(&other).norm(), at),
-            _ => match datum.geometry.axis() {
-                Some((at, axis)) => (normal.dot(&axis).abs(), at),
-                None => return Some(()),
-            },
-        };
-        if turned > SAME_RAD || normal.dot(&(place - at_mm)).abs() > SAME_MM {
+        let (name, of) = (datum.name(self.features), &self.of.name);
+        // How far it is turned, and how far off; of a common datum the middle of its features is meant.
+        let mut off_mm = 0.0;
+        let mut turned = 0.0_f64;
+        for member in &datum.features {
+            let (angle, place) = match self.features[*member].geometry {
+                Geometry::Plane { at_mm: at, normal: other, .. }
+                | Geometry::Slot { at_mm: at, across: other, .. } => {
+                    (normal.cross(&other).norm(), at)
+                }
+                other => match other.axis() {
+                    Some((at, axis)) => (normal.dot(&axis).abs(), at),
+                    None => return Some(()),
+                },
+            };
+            turned = turned.max(angle);
+            off_mm += normal.dot(&(place - at_mm)) / datum.features.len() as f64;
+        }
+        if turned > SAME_RAD || off_mm.abs() > SAME_MM {
             let message = format!("symmetry: the middle of `{of}` is not that of `{name}`");
             return self.refuse("wrong-place", message, "position for features beside each other");
         }
@@ -301,20 +342,25 @@ impl Asked<'_, '_> {
     }
 
     /// What the datums leave free; each of them must hold something.
-    fn freedom(&self, datums: &[usize]) -> Option<Freedom> {
+    fn freedom(&self, datums: &[Datum]) -> Option<Freedom> {
         let mut free = all_degrees(self.features);
         for (rank, datum) in datums.iter().enumerate() {
-            let datum = &self.features[*datum];
-            let rest = free.held_by(&held(datum));
+            let members = datum.features.iter().map(|f| &self.features[*f]);
+            let rest = free.held_by(&members.flat_map(held).collect::<Vec<_>>());
+            let label = datum.label(self.features);
             if rest.degrees() == free.degrees() {
-                let before: Vec<&str> =
-                    datums[..rank].iter().map(|d| self.features[*d].label()).collect();
+                let before: Vec<String> =
+                    datums[..rank].iter().map(|d| d.label(self.features)).collect();
                 let message = format!(
-                    "the datum `{}` holds nothing that {} leaves free",
-                    datum.label(),
+                    "the datum `{label}` holds nothing that {} leaves free",
                     before.join("|")
                 );
                 self.refuse("idle-datum", message, "leave it out, or name another feature");
+                return None;
+            }
+            if free.degrees() - rest.degrees() > MOST_HELD {
+                let message = format!("the common datum `{label}` holds all six degrees at once");
+                self.refuse("bad-datum", message, "a system in an order: datum = \"A|B|C\"");
                 return None;
             }
             free = rest;
@@ -323,8 +369,8 @@ impl Asked<'_, '_> {
     }
 
     /// The nominal feature stands at the angle that the characteristic means.
-    fn check_angle(&self, datums: &[usize], free: &Freedom) -> Option<()> {
-        let first = &self.features[datums[0]];
+    fn check_angle(&self, datums: &[Datum], free: &Freedom) -> Option<()> {
+        let first = &self.features[datums[0].features[0]];
         let directions = self.of.geometry.direction().zip(first.geometry.direction());
         let Some((own, other)) = directions else {
             let message = format!("`{}` has no direction", first.name);

@@ -3,7 +3,7 @@
 use super::Found;
 use super::ids::{Ids, Of};
 use super::xml::{Xml, decimal};
-use crate::part::{Characteristic, Geometry, Kind, Limits, Part};
+use crate::part::{Characteristic, Datum, Geometry, Kind, Limits, Part};
 use crate::tolerance::Outcome;
 
 pub(super) fn write(xml: &mut Xml, part: &Part, ids: &Ids<'_>) {
@@ -149,10 +149,11 @@ fn definition(xml: &mut Xml, part: &Part, asked: &Characteristic, index: usize, 
 fn zone(part: &Part, asked: &Characteristic) -> Option<&'static str> {
     let has_axis = |index: usize| part.features[index].geometry.axis().is_some();
     let is_axis = asked.features.first().is_some_and(|index| has_axis(*index));
-    let is_across = match asked.datums[..] {
+    let datum_has_axis = |datum: &Datum| datum.features.iter().any(|f| has_axis(*f));
+    let is_across = match &asked.datums[..] {
         // By ISO 1101 an axis lies between planes along a plane, or across an axis.
-        [datum] if asked.kind == Kind::Parallelism => !has_axis(datum),
-        [datum] if asked.kind == Kind::Perpendicularity => has_axis(datum),
+        [datum] if asked.kind == Kind::Parallelism => !datum_has_axis(datum),
+        [datum] if asked.kind == Kind::Perpendicularity => datum_has_axis(datum),
         _ => false,
     };
     match asked.kind {

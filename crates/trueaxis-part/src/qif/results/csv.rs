@@ -18,7 +18,7 @@ pub fn results_csv(part: &Part, found: &[Found]) -> Result<String, Error> {
     check(part, found)?;
     let mut text = HEADINGS.to_owned();
     for (asked, found) in part.characteristics.iter().zip(found) {
-        let datums: Vec<&str> = asked.datums.iter().map(|d| part.features[*d].label()).collect();
+        let datums: Vec<String> = asked.datums.iter().map(|d| d.label(&part.features)).collect();
         let (low_mm, high_mm) = asked.limits.ends_mm();
         let low = low_mm.map_or(String::new(), |v| v.to_string());
         text += &format!(

@@ -2,7 +2,7 @@
 
 use super::ids::{Ids, Of};
 use super::xml::Xml;
-use crate::part::Part;
+use crate::part::{Datum, Part};
 
 const PRECEDENCE: [&str; 3] = ["PRIMARY", "SECONDARY", "TERTIARY"];
 
@@ -33,21 +33,40 @@ pub(super) fn frames(xml: &mut Xml, part: &Part, ids: &Ids<'_>) {
     for (rank, frame) in ids.frames.iter().enumerate() {
         xml.open("DatumReferenceFrame", &[("id", &ids.frame(rank).to_string())]);
         xml.open("Datums", &[("n", &frame.len().to_string())]);
-        for (feature, precedence) in frame.iter().zip(PRECEDENCE) {
+        for (datum, precedence) in frame.iter().zip(PRECEDENCE) {
             xml.open("Datum", &[]);
-            xml.open("SimpleDatum", &[]);
-            xml.id("DatumDefinitionId", ids.datum(*feature));
-            xml.leaf("MaterialModifier", &[], "NONE");
-            xml.leaf("ReferencedComponent", &[], "ACTUAL");
-            xml.close();
+            match datum.single() {
+                Some(feature) => simple(xml, ids.datum(feature)),
+                None => compound(xml, datum, ids),
+            }
             xml.open("Precedence", &[]);
             xml.leaf("PrecedenceEnum", &[], precedence);
             xml.close();
             xml.close();
         }
         xml.close();
-        let labels: Vec<&str> = frame.iter().map(|f| part.features[*f].label()).collect();
+        let labels: Vec<String> = frame.iter().map(|d| d.label(&part.features)).collect();
         xml.leaf("Name", &[], &labels.join("|"));
+        xml.close();
+    }
+    xml.close();
+}
+
+fn simple(xml: &mut Xml, definition: usize) {
+    xml.open("SimpleDatum", &[]);
+    xml.id("DatumDefinitionId", definition);
+    xml.leaf("MaterialModifier", &[], "NONE");
+    xml.leaf("ReferencedComponent", &[], "ACTUAL");
+    xml.close();
+}
+
+/// A common datum.
+fn compound(xml: &mut Xml, datum: &Datum, ids: &Ids<'_>) {
+    xml.open("CompoundDatum", &[("n", &datum.features.len().to_string())]);
+    for (rank, feature) in datum.features.iter().enumerate() {
+        xml.open("Datum", &[]);
+        simple(xml, ids.datum(*feature));
+        xml.leaf("SequenceNumber", &[], &(rank + 1).to_string());
         xml.close();
     }
     xml.close();

@@ -1,6 +1,6 @@
 //! Numbers of all elements: small, and the same for the same part.
 
-use crate::part::{Characteristic, Geometry, Part};
+use crate::part::{Characteristic, Datum, Geometry, Part};
 
 const STANDARD: usize = 1;
 const SOFTWARE: usize = 2;
@@ -23,7 +23,7 @@ pub(super) struct Ids<'p> {
     /// Features that are datums, in the order of the part, each with its label.
     pub datums: Vec<(usize, String)>,
     /// Datum systems, each once, in the order of the characteristics.
-    pub frames: Vec<&'p [usize]>,
+    pub frames: Vec<&'p [Datum]>,
     characteristics: usize,
     /// How many points of tables stand before those of a feature, and at the end of all.
     points: Vec<usize>,
@@ -31,7 +31,7 @@ pub(super) struct Ids<'p> {
 
 impl<'p> Ids<'p> {
     pub fn of(part: &'p Part) -> Self {
-        let mut frames: Vec<&[usize]> = Vec::new();
+        let mut frames: Vec<&[Datum]> = Vec::new();
         for asked in &part.characteristics {
             let datums = &asked.datums[..];
             if !datums.is_empty() && !frames.contains(&datums) {
@@ -107,9 +107,10 @@ impl<'p> Ids<'p> {
 }
 
 /// The features that have a letter or are named as datums, with labels that are tokens of XML and differ.
-fn labels(part: &Part, frames: &[&[usize]]) -> Vec<(usize, String)> {
+fn labels(part: &Part, frames: &[&[Datum]]) -> Vec<(usize, String)> {
     let is_datum = |index: usize| {
-        part.features[index].letter.is_some() || frames.iter().any(|f| f.contains(&index))
+        part.features[index].letter.is_some()
+            || frames.iter().copied().flatten().any(|d| d.features.contains(&index))
     };
     let mut found: Vec<(usize, String)> = Vec::new();
     for index in (0..part.features.len()).filter(|i| is_datum(*i)) {
