@@ -33,8 +33,9 @@ KINDS = [
     ("tolerances of a test piece", "testpieces/gbt33150-tolerances.toml", "predict made/toleranced.toml"),
     ("study of holes", "03/torque-arm.toml", "predict 03/torque-arm.toml"),
     ("readings of a set-up", "03/nas979-set-up-readings.toml", "predict 03/nas979-set-up.toml"),
-    ("study of a part", "03/housing.toml", "predict 03/housing.toml"),
-    ("part file", "parts/housing.toml", "predict 03/housing.toml"),
+    # Each sample of a part takes 2 ms: few of them, whatever the file says.
+    ("study of a part", "03/housing.toml", "predict 03/housing.toml --samples 10"),
+    ("part file", "parts/housing.toml", "predict 03/housing.toml --samples 10"),
     ("part file by its program", "parts/impeller-blade.toml", "predict 03/blade.toml"),
     ("points of a part", "parts/s-shape-a.csv", "predict 03/s-shape.toml"),
     ("QIF of a product", "import/plate.qif", "part import/plate.qif"),

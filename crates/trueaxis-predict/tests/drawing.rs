@@ -330,6 +330,7 @@ fn bad_drawings_are_refused_by_name() {
         (part("hole =", "cylinder ="), "cut-away"),
         (part("diameter = \"30 mm\"", "diameter = \"60 mm\""), "not-cut"),
         (part("[feature.bore]\n", "[feature.bore]\nspacing = \"0.001 mm\"\n"), "too-many-points"),
+        (("s.toml", format!("{STUDY}[monte_carlo]\nsamples = 1000001\n")), "too-many-samples"),
         (part("of = \"bore\"", "of = \"boer\""), "unknown-feature"),
         (
             part("roundness = \"10 um\"\nof = \"bore\"", "roundness = \"10 um\"\nof = \"side\""),

@@ -167,7 +167,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
     let piece_path = root.require("test_piece", hint).and_then(|i| i.text());
     let test_piece = piece_path.and_then(|p| TestPieceFile::named_in(root, &folder.join(p)));
     let decision = root.section("decision", read_decision);
-    let sampling = root.section("monte_carlo", read_sampling);
+    let sampling = root.section("monte_carlo", |s| read_sampling(s, Study::MOST_SAMPLES));
     let published = root.section("published", |s| read_published(s, test_piece.as_ref()));
     let (Some(machine), Some(test_piece)) = (machine, test_piece) else {
         // The rest needs both; do not call it unknown.
@@ -518,14 +518,13 @@ pub(super) fn read_decision(section: &Section<'_>) -> Option<Decision> {
 }
 
 /// `samples = 100000`, `seed = 7`; 0 samples: no run.
-pub(super) fn read_sampling(section: &Section<'_>) -> Option<Sampling> {
+pub(super) fn read_sampling(section: &Section<'_>, most: usize) -> Option<Sampling> {
     let default = Sampling::default();
     let samples = section.get("samples").map_or(Some(default.samples), |item| {
         let samples = item.count()?;
-        if samples > Study::MOST_SAMPLES {
-            let most = Study::MOST_SAMPLES;
+        if samples > most {
             let hint = format!("at most {most}; 10000 give u of an index to 1 %");
-            item.error("too-many-samples", "the run would take days".into(), &hint);
+            item.error("too-many-samples", "the run would take too long".into(), &hint);
         }
         Some(samples)
     })?;

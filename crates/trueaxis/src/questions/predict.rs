@@ -153,12 +153,13 @@ impl Predict {
         Some(sampling).filter(|s| s.samples > 0)
     }
 
-    fn samples(&self, problems: &mut Diagnostics) -> Option<usize> {
+    fn samples(&self, is_part: bool, problems: &mut Diagnostics) -> Option<usize> {
         let text = self.samples.as_deref()?;
-        let samples = text.parse().ok().filter(|n| *n != 1 && *n <= Study::MOST_SAMPLES);
+        let most = if is_part { PartStudy::MOST_SAMPLES } else { Study::MOST_SAMPLES };
+        let samples = text.parse().ok().filter(|n| *n != 1 && *n <= most);
         if samples.is_none() {
             let message = format!("`{text}` is not a possible number of Monte Carlo samples");
-            let hint = format!("0 for no Monte Carlo run, or 2 to {}", Study::MOST_SAMPLES);
+            let hint = format!("0 for no Monte Carlo run, or 2 to {most}");
             problems.error("bad-sampling", Place::whole("--samples"), message, &hint);
         }
         samples
@@ -171,13 +172,14 @@ impl Question for Predict {
     const PROGRESS: &'static str = "Monte Carlo";
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<PredictInput> {
-        let samples = self.samples(problems);
-        self.check_results(is_part_study(files, &self.study), problems);
+        let is_part = is_part_study(files, &self.study);
+        let samples = self.samples(is_part, problems);
+        self.check_results(is_part, problems);
         if is_hole_study(files, &self.study) {
             let study = problems.keep(read_hole_study(files, &self.study));
             return study.map(Box::new).map(PredictInput::Holes);
         }
-        if is_part_study(files, &self.study) {
+        if is_part {
             let mut study = Box::new(problems.keep(read_part_study(files, &self.study))?);
             study.sampling = self.sampling(study.sampling, samples);
             return Some(PredictInput::Drawing(study));

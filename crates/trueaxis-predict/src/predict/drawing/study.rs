@@ -85,7 +85,9 @@ fn read(root: &Section<'_>, path: &Path) -> Option<PartStudy> {
     let program = root.require("program", hint).and_then(|i| i.text());
     let setup = root.text("setup").map(|name| folder.join(name));
     let decision = root.section("decision", read_decision).unwrap_or(Some(Decision::Simple));
-    let sampling = root.section("monte_carlo", read_sampling).map_or(Some(None), |s| s.map(Some));
+    let sampling = root
+        .section("monte_carlo", |s| read_sampling(s, PartStudy::MOST_SAMPLES))
+        .map_or(Some(None), |s| s.map(Some));
     let setting = machine.as_ref().map(|machine| {
         check_uncertainties(root, decision, machine);
         root.section("setting", |s| read_setting(s, machine, &[])).flatten().unwrap_or_default()
@@ -139,6 +141,9 @@ fn read(root: &Section<'_>, path: &Path) -> Option<PartStudy> {
 }
 
 impl PartStudy {
+    /// Half an hour; all values of a run are kept.
+    pub const MOST_SAMPLES: usize = 1_000_000;
+
     /// The error of the tip where the part zero was set, mm.
     pub(super) fn zero(&self, problems: &mut Diagnostics) -> Option<Vec3> {
         let Some(setting) = &self.setting else { return Some(Vec3::zeros()) };
