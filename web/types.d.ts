@@ -9901,6 +9901,10 @@ export interface CharacteristicEntry {
    */
   points_mm: number;
   /**
+   * As the measuring machine of the study would find it; absent if the study states none.
+   */
+  measured?: ServeWhatIfMeasuredEntry | null;
+  /**
    * The value that the program leaves on a machine without errors, mm.
    */
   nominal_mm: number;
@@ -9932,6 +9936,19 @@ export interface CharacteristicEntry {
    * The errors that matter most, the largest first.
    */
   errors: ErrorEffectEntry[];
+}
+/**
+ * A characteristic as it would be measured.
+ */
+export interface ServeWhatIfMeasuredEntry {
+  /**
+   * The mean of its values, mm.
+   */
+  mean_mm: number;
+  /**
+   * Standard uncertainty by the scatter of the points, mm.
+   */
+  u_mm: number;
 }
 /**
  * A characteristic by the compensated program.

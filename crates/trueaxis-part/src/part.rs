@@ -14,7 +14,7 @@ mod values;
 
 pub use characteristic::{Characteristic, Datum, Kind, Limits};
 pub(crate) use feature::across;
-pub use feature::{Feature, Geometry, Sampled, every_second};
+pub use feature::{Extraction, Feature, Geometry, Sampled, every_second};
 
 /// A checked part file.
 #[derive(Debug, Clone, PartialEq)]

@@ -326,11 +326,22 @@ fn bad_drawings_are_refused_by_name() {
         assert_ne!(text, PART, "{from}");
         ("p.toml", text)
     };
+    let extracted = |of: &str, how: &str| {
+        let head = format!("[feature.{of}]\n");
+        part(&head, &format!("{head}extraction = {{ {how} }}\n"))
+    };
     let cases = [
         (part("hole =", "cylinder ="), "cut-away"),
         (part("diameter = \"30 mm\"", "diameter = \"60 mm\""), "not-cut"),
         (part("[feature.bore]\n", "[feature.bore]\nspacing = \"0.001 mm\"\n"), "too-many-points"),
         (("s.toml", format!("{STUDY}[monte_carlo]\nsamples = 1000001\n")), "too-many-samples"),
+        (("s.toml", format!("{STUDY}[measurement]\npoint_u = \"2 mm\"\n")), "impossible-value"),
+        (extracted("bore", "rows = 4, points = 12"), "contradiction"),
+        (extracted("side", "sections = 4, points = 12"), "contradiction"),
+        (extracted("side", "rows = 4, points = 12"), "contradiction"),
+        (extracted("bore", "sections = 2, points = 12"), "bad-count"),
+        (extracted("bore", "sections = 4, points = 0"), "bad-count"),
+        (extracted("bore", "sections = 90000, points = 90000"), "too-many-points"),
         (part("of = \"bore\"", "of = \"boer\""), "unknown-feature"),
         (
             part("roundness = \"10 um\"\nof = \"bore\"", "roundness = \"10 um\"\nof = \"side\""),
@@ -519,6 +530,33 @@ fn law_a_program_that_is_corrected_by_hand() {
     let after = by(&corrected);
     assert!(after.values_mm.iter().all(|v| v.abs() < 2e-5), "{after:?}");
     assert_eq!(after.outcome, trueaxis_part::tolerance::Outcome::Pass);
+}
+
+/// A measuring machine with 2 µm per point, four sections of twelve points: u of the least-squares diameter is 2 · 2/√48 µm, whatever the form; what is
+/// flat is found out of flat, by less than the range of 45 normal values, 4.4 u, and more than half of that.
+#[test]
+fn law_what_a_measuring_machine_would_find() {
+    let part = "name = \"p\"\n[feature.bore]\nhole = { at = \"0 0 -2 mm\", axis = \"0 0 -1\", diameter = \"30 mm\", length = \"16 mm\" }\n\
+        extraction = { sections = 4, points = 12 }\n\
+        [feature.side]\nplane = { at = \"60 0 -10 mm\", normal = \"1 0 0\", along = \"0 1 0\", size = \"70 16 mm\" }\nextraction = { rows = 5, points = 9 }\n\
+        [[characteristic]]\ndiameter = \"10 um\"\nof = \"bore\"\n[[characteristic]]\nflatness = \"10 um\"\nof = \"side\"\n";
+    let study = format!("{STUDY}[measurement]\npoint_u = \"2 um\"\n");
+    for errors in ["", "EC0Y = \"100 urad\""] {
+        let machine = mill(errors);
+        let texts = [("p.toml", part), ("s.toml", study.as_str()), ("m.toml", machine.as_str())];
+        let found = predicted(&texts);
+        let counts: Vec<usize> = found.features.iter().map(|f| f.points.len()).collect();
+        assert_eq!(counts, [48, 45]);
+        let [diameter, flatness] = &found.values[..] else { panic!("two") };
+        let (d, f) = (diameter.measured.expect("measured"), flatness.measured.expect("measured"));
+        let due = 4e-3 / 48f64.sqrt();
+        // 400 draws: 3.5 %, three times.
+        assert!((d.u_mm / due - 1.0).abs() < 0.106, "{d:?} {due}");
+        assert!((d.mean_mm - diameter.value_mm).abs() < 3.0 * due / 20.0, "{d:?}");
+        assert!(flatness.value_mm < 1e-6 && (2.2 * 2e-3..4.4 * 2e-3).contains(&f.mean_mm), "{f:?}");
+        let points_mm = diameter.points_mm / 3f64.sqrt();
+        assert!((diameter.combined_mm() - d.u_mm.hypot(points_mm)).abs() < 1e-12);
+    }
 }
 
 /// A surface that the program makes, seen through a rectangle: nought on a machine without errors, and what an error displaces it by on another.

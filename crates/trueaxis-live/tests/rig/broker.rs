@@ -42,6 +42,8 @@ pub fn until(
 pub struct Broker {
     pub up: Arc<AtomicBool>,
     pub subscribed: Arc<AtomicUsize>,
+    /// Connections that are open.
+    open: Arc<AtomicUsize>,
     pub port: u16,
 }
 
@@ -51,15 +53,37 @@ impl Broker {
         let port = listener.local_addr().expect("an address").port();
         let (up, subscribed) = (Arc::new(AtomicBool::new(true)), Arc::new(AtomicUsize::new(0)));
         let (theirs, counted) = (Arc::clone(&up), Arc::clone(&subscribed));
+        let open = Arc::new(AtomicUsize::new(0));
+        let all = Arc::clone(&open);
         std::thread::spawn(move || {
             for stream in listener.incoming().flatten() {
                 if theirs.load(Ordering::SeqCst) {
                     let (up, subscribed) = (Arc::clone(&theirs), Arc::clone(&counted));
-                    std::thread::spawn(move || serve(stream, &up, &subscribed));
+                    let open = Arc::clone(&all);
+                    open.fetch_add(1, Ordering::SeqCst);
+                    std::thread::spawn(move || {
+                        serve(stream, &up, &subscribed);
+                        open.fetch_sub(1, Ordering::SeqCst);
+                    });
                 }
             }
         });
-        Self { up, subscribed, port }
+        Self { up, subscribed, open, port }
+    }
+
+    /// Ends all connections.
+    fn end(&self) {
+        self.up.store(false, Ordering::SeqCst);
+        wait(|| self.open.load(Ordering::SeqCst) == 0, "the connections end");
+    }
+}
+
+/// Waits until something is so, however busy the computer is.
+fn wait(is_so: impl Fn() -> bool, what: &str) {
+    let began = Instant::now();
+    while !is_so() {
+        assert!(began.elapsed() < Duration::from_secs(60), "{what}");
+        std::thread::sleep(Duration::from_millis(10));
     }
 }
 
@@ -124,10 +148,13 @@ pub fn restart() -> String {
     assert_eq!((kept.sensor, kept.taken_s), (3, None), "no one knows how old that is");
     let fresh = until(&mut *sensor, &clock, |s| s.sent.celsius() == Some(21.5)).expect("a sample");
     assert!((clock.now_s() - fresh.taken_s.expect("a time")).abs() < 0.5);
-    broker.up.store(false, Ordering::SeqCst);
+    broker.end();
     std::thread::sleep(Duration::from_millis(500));
     sensor.poll(clock.now_s());
     broker.up.store(true, Ordering::SeqCst);
+    wait(|| broker.subscribed.load(Ordering::SeqCst) == 2, "subscribed to again");
+    // Samples of before that came late.
+    sensor.poll(clock.now_s());
     let again =
         until(&mut *sensor, &clock, |s| s.sent.celsius() == Some(21.5)).expect("a sample after it");
     assert!(again.taken_s.is_some());

@@ -3,7 +3,7 @@
 mod moved;
 mod sampled;
 
-pub use sampled::{Sampled, every_second};
+pub use sampled::{Extraction, Sampled, every_second};
 
 use std::ops::Range;
 use trueaxis_form::{Element, Shape};

@@ -7,7 +7,7 @@ mod repeat;
 mod shapes;
 
 use super::feature::MOST_POINTS;
-use super::{Characteristic, Feature, Geometry, Part, Sampled};
+use super::{Characteristic, Extraction, Feature, Geometry, Part, Sampled};
 use characteristics::read_characteristic;
 use mesh::read_mesh;
 use openings::read_openings;
@@ -20,6 +20,8 @@ use trueaxis_input::{CsvTable, Diagnostics, Dimension, Files, Item, Place, Secti
 
 /// How far into and out of the material a feature is checked, unless it says so.
 const REACH_MM: f64 = 1.0;
+/// Rows, sections and points of each: fewer show no form.
+const LEAST_COUNT: usize = 3;
 /// The same for a surface of the program: between neighbouring tracks of the tool it is rough.
 const PROGRAMMED_MM: f64 = 0.1;
 
@@ -163,8 +165,8 @@ fn sampled(
     geometry: &Geometry,
     (spacing_mm, openings): (Option<f64>, Option<Item<'_>>),
 ) -> Option<Sampled> {
-    let spacing_mm = spacing_mm.unwrap_or_else(|| usual_spacing(geometry));
-    let mut sampled = match geometry.sampled(spacing_mm) {
+    let extraction = read_extraction(section, spacing_mm, geometry)?;
+    let mut sampled = match geometry.sampled(extraction) {
         Ok(found) => found,
         Err(why) => {
             section.error("too-many-points", why, "write a larger `spacing`");
@@ -182,6 +184,44 @@ fn sampled(
         return None;
     }
     Some(sampled)
+}
+
+/// `spacing`, or as a measuring machine does: `extraction = { sections = 4, points = 12 }`.
+fn read_extraction(
+    section: &Section<'_>,
+    spacing_mm: Option<f64>,
+    geometry: &Geometry,
+) -> Option<Extraction> {
+    let Some(item) = section.get("extraction") else {
+        return Some(Extraction::Spacing(spacing_mm.unwrap_or_else(|| usual_spacing(geometry))));
+    };
+    if spacing_mm.is_some() {
+        let message = "both `spacing` and `extraction` are stated".to_owned();
+        item.error("contradiction", message, "one of them");
+        return None;
+    }
+    let has_axis = geometry.axis().is_some();
+    let (key, other) = if has_axis { ("sections", "rows") } else { ("rows", "sections") };
+    item.section("extraction", |s| {
+        let count = |key: &str, hint: &str| {
+            let item = s.require(key, hint)?;
+            let count = item.count()?;
+            if (LEAST_COUNT..=MOST_POINTS).contains(&count) {
+                return Some(count);
+            }
+            let message = format!("{count} {key}: at least {LEAST_COUNT} show a form");
+            item.error("bad-count", message, hint);
+            None
+        };
+        if let Some(wrong) = s.get(other) {
+            let message = format!("a {} has {key}, not {other}", geometry.name());
+            wrong.error("contradiction", message, &format!("{key} = 4"));
+            return None;
+        }
+        let (rows, points) = (count(key, &format!("{key} = 4")), count("points", "points = 12"));
+        Some(Extraction::Grid { rows: rows?, points: points? })
+    })
+    .flatten()
 }
 
 fn positive(item: &Item<'_>, key: &str) -> Option<f64> {

@@ -12,6 +12,7 @@
 mod budget;
 mod corrected;
 mod many;
+mod measured;
 mod path;
 mod programmed;
 mod study;
@@ -19,6 +20,7 @@ mod study;
 pub use budget::{ErrorEffect, PointEffect, effects};
 pub use corrected::{CorrectedPart, predict_corrected};
 pub use many::{Drawn, ManyParts, cut_with};
+pub use measured::Measured;
 pub use path::{CutPath, Origin};
 pub use study::{PartStudy, is_part_study, read_part_study};
 
@@ -41,6 +43,8 @@ pub struct PartValue {
     pub u_mm: f64,
     /// By how much it changes with half of the points, mm.
     pub points_mm: f64,
+    /// As the measuring machine of the study would find it.
+    pub measured: Option<Measured>,
     /// What the program leaves on a machine without errors, mm.
     pub nominal_mm: f64,
     /// How much of the tolerance is used. Unit: 1.
@@ -52,15 +56,12 @@ pub struct PartValue {
 }
 
 impl PartValue {
-    /// Its combined standard uncertainty: of the machine, and of what lies between the points, anywhere within [`PartValue::points_mm`]
-    /// on either side (docs/model.md eq. 323), mm.
+    /// Its combined standard uncertainty: of the machine, of what lies between the points, anywhere within [`PartValue::points_mm`] on
+    /// either side (docs/model.md eq. 323), and of the measurement, mm.
     pub fn combined_mm(&self) -> f64 {
-        combined_mm(self.u_mm, self.points_mm)
+        let measured_mm = self.measured.map_or(0.0, |m| m.u_mm);
+        self.u_mm.hypot(self.points_mm / 3f64.sqrt()).hypot(measured_mm)
     }
-}
-
-fn combined_mm(u_mm: f64, points_mm: f64) -> f64 {
-    u_mm.hypot(points_mm / 3f64.sqrt())
 }
 
 /// A point of a feature as it was cut.

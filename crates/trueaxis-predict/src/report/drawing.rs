@@ -37,11 +37,31 @@ pub fn drawing_report<'a>(study: &'a PartStudy, prediction: &'a PartPrediction) 
         Some((sampling, drawn)) => report.section(many_machines(study, sampling, drawn)),
         None => report,
     };
+    let report = match study.point_u_mm {
+        Some(u_mm) => report.section(measurement(study, prediction, u_mm)),
+        None => report,
+    };
     let report = match &prediction.corrected {
         Some(corrected) => report.section(compensated(study, prediction, corrected)),
         None => report,
     };
     report.section(budget(study, prediction)).section(features(study, prediction))
+}
+
+/// The part as a measuring machine would find it.
+fn measurement<'a>(study: &PartStudy, prediction: &PartPrediction, u_mm: f64) -> Section<'a> {
+    let mut table = Table::new(["all in µm", "value", "measured, mean", "u of the measurement"]);
+    for (asked, value) in study.part.characteristics.iter().zip(&prediction.values) {
+        let Some(measured) = value.measured else { continue };
+        let [true_um, mean, u] = [value.value_mm, measured.mean_mm, measured.u_mm].map(um);
+        table = table.row([asked.name.clone(), true_um, mean, u]);
+    }
+    let note = format!(
+        "Each point of the features with u = {} µm, independent of the others: forms are found larger than they are. The u of the measurement \
+         counts in a verdict by ISO 14253-1.",
+        um(u_mm)
+    );
+    Section::new("As it would be measured").table(table.note(note))
 }
 
 /// The part before and after its program is compensated.

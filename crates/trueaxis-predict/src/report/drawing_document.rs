@@ -62,6 +62,9 @@ pub struct CharacteristicEntry<'a> {
     pub u_mm: f64,
     /// By how much the value changes with half of the points, mm.
     pub points_mm: f64,
+    /// As the measuring machine of the study would find it; absent if the study states none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub measured: Option<MeasuredEntry>,
     /// The value that the program leaves on a machine without errors, mm.
     pub nominal_mm: f64,
     /// The least value allowed; null for a zone, mm.
@@ -80,6 +83,15 @@ pub struct CharacteristicEntry<'a> {
     pub monte_carlo: Option<DrawnEntry>,
     /// The errors that matter most, the largest first.
     pub errors: Vec<ErrorEffectEntry>,
+}
+
+/// A characteristic as it would be measured.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct MeasuredEntry {
+    /// The mean of its values, mm.
+    pub mean_mm: f64,
+    /// Standard uncertainty by the scatter of the points, mm.
+    pub u_mm: f64,
 }
 
 /// A characteristic by the compensated program.
@@ -233,6 +245,7 @@ impl<'a> CharacteristicEntry<'a> {
             value_mm: value.value_mm,
             u_mm: value.u_mm,
             points_mm: value.points_mm,
+            measured: value.measured.map(|m| MeasuredEntry { mean_mm: m.mean_mm, u_mm: m.u_mm }),
             nominal_mm: value.nominal_mm,
             low_mm,
             high_mm,

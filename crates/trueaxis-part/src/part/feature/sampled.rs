@@ -9,6 +9,45 @@ use trueaxis_geometry::surface::SurfacePoint;
 /// How far the outermost points are from the edges, where two surfaces meet. Unit: mm.
 const EDGE_MM: f64 = 0.25;
 
+/// How points are chosen on a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Extraction {
+    /// No farther apart than so much, mm.
+    Spacing(f64),
+    /// As a measuring machine does: so many rows or sections, with so many points each.
+    Grid {
+        /// Rows, or sections across the axis.
+        rows: usize,
+        /// Points of each.
+        points: usize,
+    },
+}
+
+impl Extraction {
+    fn around(self, radius_mm: f64) -> usize {
+        match self {
+            Self::Spacing(spacing_mm) => turns(radius_mm, spacing_mm),
+            Self::Grid { points, .. } => points,
+        }
+    }
+
+    /// Rows or sections along a length, at least so many steps.
+    fn rows(self, least: usize, length_mm: f64) -> Along {
+        match self {
+            Self::Spacing(spacing_mm) => Along::of_at_least(least, length_mm, spacing_mm),
+            Self::Grid { rows, .. } => Along::of(rows, length_mm),
+        }
+    }
+
+    /// Points of a row.
+    fn row(self, least: usize, length_mm: f64) -> Along {
+        match self {
+            Self::Spacing(spacing_mm) => Along::of_at_least(least, length_mm, spacing_mm),
+            Self::Grid { points, .. } => Along::of(points, length_mm),
+        }
+    }
+}
+
 /// Points of a surface.
 #[derive(Debug, Clone, Default)]
 pub struct Sampled {
@@ -29,18 +68,22 @@ impl Sampled {
 }
 
 impl Geometry {
-    /// Points no farther apart than `spacing_mm`, and which of them make a section; they reach to [`EDGE_MM`] from the edges, whatever
-    /// the spacing is.
+    /// Points, and which of them make a section; they reach to 0.25 mm from the edges, however many there are.
     ///
     /// # Errors
     /// In words: too many points.
-    pub fn sampled(&self, spacing_mm: f64) -> Result<Sampled, String> {
-        let rows = self.rows(spacing_mm);
+    pub fn sampled(&self, extraction: Extraction) -> Result<Sampled, String> {
+        let rows = self.rows(extraction);
         let count: usize = rows.iter().map(|row| row.count).fold(0, usize::saturating_add);
         if count > MOST_POINTS {
-            return Err(format!(
-                "a spacing of {spacing_mm} mm makes {count} points, at most {MOST_POINTS} are checked"
-            ));
+            return Err(match extraction {
+                Extraction::Spacing(spacing_mm) => format!(
+                    "a spacing of {spacing_mm} mm makes {count} points, at most {MOST_POINTS} are checked"
+                ),
+                Extraction::Grid { .. } => {
+                    format!("{count} points are asked for, at most {MOST_POINTS} are checked")
+                }
+            });
         }
         let mut sampled = Sampled::default();
         // Points of a slot that face each other are kept together.
@@ -59,25 +102,25 @@ impl Geometry {
         Ok(sampled)
     }
 
-    fn rows(&self, spacing_mm: f64) -> Vec<Row> {
+    fn rows(&self, extraction: Extraction) -> Vec<Row> {
         match *self {
             Self::Plane { at_mm, normal, along, size_mm }
             | Self::Programmed { at_mm, normal, along, size_mm, .. } => {
-                rectangle(at_mm, (normal, along), size_mm, spacing_mm).collect()
+                rectangle(at_mm, (normal, along), size_mm, extraction).collect()
             }
             Self::Cylinder { at_mm, axis, radius_mm, length_mm, is_hole } => {
-                round(at_mm, axis, [radius_mm; 2], length_mm, (is_hole, spacing_mm))
+                round(at_mm, axis, [radius_mm; 2], length_mm, (is_hole, extraction))
             }
             Self::Cone { at_mm, axis, radii_mm, length_mm, is_hole } => {
-                round(at_mm, axis, radii_mm, length_mm, (is_hole, spacing_mm))
+                round(at_mm, axis, radii_mm, length_mm, (is_hole, extraction))
             }
             Self::Sphere { at_mm, axis, radius_mm, opening_rad, is_hole } => {
                 let [x, y] = across(&axis);
                 let sign = if is_hole { -1.0 } else { 1.0 };
-                let rows = Along::new(radius_mm * opening_rad, spacing_mm);
+                let rows = extraction.rows(4, radius_mm * opening_rad);
                 let row = |share: f64| {
                     let (sin, cos) = (opening_rad * share).sin_cos();
-                    let around = turns(radius_mm * sin, spacing_mm);
+                    let around = extraction.around(radius_mm * sin);
                     Row::new(around, move |k| {
                         let (s, c) = turn(k, around).sin_cos();
                         let out = axis * cos + (x * c + y * s) * sin;
@@ -89,11 +132,11 @@ impl Geometry {
             Self::Torus { at_mm, axis, ring_mm, radius_mm, section_rad: [from, to], is_hole } => {
                 let [x, y] = across(&axis);
                 let sign = if is_hole { -1.0 } else { 1.0 };
-                let rows = Along::new(radius_mm * (to - from), spacing_mm);
+                let rows = extraction.rows(4, radius_mm * (to - from));
                 let row = |share: f64| {
                     let (sin, cos) = (from + (to - from) * share).sin_cos();
                     let ring = ring_mm + radius_mm * cos;
-                    let around = turns(ring, spacing_mm);
+                    let around = extraction.around(ring);
                     Row::new(around, move |k| {
                         let (s, c) = turn(k, around).sin_cos();
                         let out = x * c + y * s;
@@ -108,7 +151,7 @@ impl Geometry {
                 let face = |side: f64| {
                     let normal = across * if is_hole { -side } else { side };
                     let at_mm = at_mm + across * (0.5 * side * width_mm);
-                    let rows = rectangle(at_mm, (across, along), size_mm, spacing_mm);
+                    let rows = rectangle(at_mm, (across, along), size_mm, extraction);
                     rows.map(move |row| row.with_normal(normal))
                 };
                 face(1.0).chain(face(-1.0)).collect()
@@ -153,11 +196,12 @@ fn rectangle(
     at_mm: Vec3,
     (normal, along): (Vec3, Vec3),
     size_mm: [f64; 2],
-    spacing_mm: f64,
+    extraction: Extraction,
 ) -> impl Iterator<Item = Row> {
     let across = normal.cross(&along);
     // Fewer could all lie at the same side of the tool's rows.
-    let [row, rows] = size_mm.map(|size| Along::of_at_least(8, size, spacing_mm));
+    let row = extraction.row(8, size_mm[0]);
+    let rows = extraction.rows(8, size_mm[1]);
     rows.shares().map(move |share| {
         let from = at_mm + across * (size_mm[1] * (share - 0.5));
         let at = move |i| point(from + along * (size_mm[0] * (row.share(i) - 0.5)), normal);
@@ -171,13 +215,13 @@ fn round(
     axis: Vec3,
     radii_mm: [f64; 2],
     length_mm: f64,
-    (is_hole, spacing_mm): (bool, f64),
+    (is_hole, extraction): (bool, Extraction),
 ) -> Vec<Row> {
     let [x, y] = across(&axis);
     let sign = if is_hole { -1.0 } else { 1.0 };
     let rise = radii_mm[1] - radii_mm[0];
     let slant = length_mm.hypot(rise);
-    let around = turns(radii_mm[0].max(radii_mm[1]), spacing_mm);
+    let around = extraction.around(radii_mm[0].max(radii_mm[1]));
     let row = |along: f64| {
         let radius = radii_mm[0] + rise * along;
         let from = at_mm + axis * (length_mm * along);
@@ -188,7 +232,7 @@ fn round(
             point(from + out * radius, normal * sign)
         })
     };
-    Along::new(slant, spacing_mm).shares().map(row).collect()
+    extraction.rows(4, slant).shares().map(row).collect()
 }
 
 fn point(point_mm: Vec3, normal: Vec3) -> SurfacePoint {
@@ -219,15 +263,15 @@ struct Along {
 }
 
 impl Along {
-    fn new(length_mm: f64, spacing_mm: f64) -> Self {
-        Self::of_at_least(4, length_mm, spacing_mm)
-    }
-
     fn of_at_least(least: usize, length_mm: f64, spacing_mm: f64) -> Self {
         let edge_mm = EDGE_MM.min(0.1 * length_mm);
         // An even number of steps, so that every second point reaches to both ends, too.
         let count = steps(length_mm - 2.0 * edge_mm, spacing_mm).next_multiple_of(2).max(least);
-        let count = count + 1;
+        Self::of(count + 1, length_mm)
+    }
+
+    fn of(count: usize, length_mm: f64) -> Self {
+        let edge_mm = EDGE_MM.min(0.1 * length_mm);
         Self { count, edge: edge_mm / length_mm }
     }
 

@@ -1,8 +1,9 @@
 //! Values of the characteristics, their uncertainty, and what each error does to them.
 
 use super::many::{ManyParts, many};
+use super::measured::measured;
 use super::path::CutPath;
-use super::{PartStudy, PartValue, combined_mm, outcome};
+use super::{PartStudy, PartValue, outcome};
 use rayon::prelude::*;
 use trueaxis_cut::{Cut, Nail};
 use trueaxis_geometry::Vec3;
@@ -155,6 +156,7 @@ pub(super) fn values(
     let actual = evaluate(deviations)?;
     let nominal = evaluate(by_program)?;
     let by_points = part.by_points_mm(deviations).map_err(|e| e.to_string())?;
+    let by_measuring = study.point_u_mm.map(|u_mm| measured(part, deviations, u_mm)).transpose()?;
     let shifts = all.uncertain_shifts(&study.mounted.uncertain_quantities());
     let u_mm = propagated(part, deviations, &shifts)?;
     let drawn =
@@ -168,7 +170,6 @@ pub(super) fn values(
         .collect::<Result<_, _>>()?;
     let value = |(i, asked): (usize, &part::Characteristic)| {
         let (value_mm, u_mm, points_mm) = (actual[i], u_mm[i], by_points[i]);
-        let combined_mm = combined_mm(u_mm, points_mm);
         let of = |((_, error), without): (&(ErrorIndex, ErrorName), &Vec<f64>)| ErrorEffect {
             error: *error,
             without_mm: without[i],
@@ -176,15 +177,18 @@ pub(super) fn values(
         let mut errors: Vec<ErrorEffect> = stated.iter().zip(&without).map(of).collect();
         let change = |e: &ErrorEffect| (value_mm - e.without_mm).abs();
         errors.sort_by(|a, b| change(b).total_cmp(&change(a)));
-        PartValue {
+        let value = PartValue {
             value_mm,
             u_mm,
             points_mm,
+            measured: by_measuring.as_ref().map(|all| all[i]),
             nominal_mm: nominal[i],
             used_ratio: asked.limits.used(value_mm),
-            outcome: outcome(&asked.limits, value_mm, combined_mm, study.decision),
+            outcome: Outcome::Undecided,
             errors,
-        }
+        };
+        let outcome = outcome(&asked.limits, value_mm, value.combined_mm(), study.decision);
+        PartValue { outcome, ..value }
     };
     let values = part.characteristics.iter().enumerate().map(value).collect();
     let at = |point: usize| {
