@@ -9786,9 +9786,13 @@ export interface PredictPart {
    */
   outcome: string;
   /**
-   * The same by the compensated program; absent unless it was asked for.
+   * The same by the compensated program, the zero where it was set; absent unless it was asked for.
    */
   compensated_outcome?: string | null;
+  /**
+   * The same with the zero set again by compensated motion.
+   */
+  compensated_zero_set_outcome?: string | null;
   /**
    * Errors each of whose corrections alone brings all characteristics into tolerance, the best first; empty where they are.
    */
@@ -9925,9 +9929,13 @@ export interface CharacteristicEntry {
    */
   outcome: string;
   /**
-   * By the compensated program; absent unless it was asked for.
+   * By the compensated program, the zero where it was set; absent unless it was asked for.
    */
   compensated?: CompensatedEntry | null;
+  /**
+   * The same with the zero set again by compensated motion.
+   */
+  compensated_zero_set?: CompensatedEntry | null;
   /**
    * From the Monte Carlo run; absent if there was none.
    */
@@ -11861,9 +11869,13 @@ export interface DrawingDocument {
    */
   outcome: string;
   /**
-   * The same by the compensated program; absent unless it was asked for.
+   * The same by the compensated program, the zero where it was set; absent unless it was asked for.
    */
   compensated_outcome?: string | null;
+  /**
+   * The same with the zero set again by compensated motion.
+   */
+  compensated_zero_set_outcome?: string | null;
   /**
    * Errors each of whose corrections alone brings all characteristics into tolerance, the best first; empty where they are.
    */

@@ -75,12 +75,16 @@ fn a_part_by_its_compensated_program() {
     assert_eq!(ran.status, 1, "{}", ran.err);
     let document = ran.json();
     assert_eq!(document["compensated_outcome"], "pass");
+    assert_eq!(document["compensated_zero_set_outcome"], "pass");
     for one in list(&document, "characteristics") {
         let number = |v: &Value| v.as_f64().expect("a number");
         let after = number(&one["compensated"]["value_mm"]);
         // A residual of 1 µm either way at each end of a zone, and twice that where a zone is a diameter.
         assert!((after - number(&one["nominal_mm"])).abs() < 4e-3, "{one}");
         assert_eq!(one["compensated"]["outcome"], "pass", "{one}");
+        // All of it counts from datums: the zero does not matter.
+        let again = number(&one["compensated_zero_set"]["value_mm"]);
+        assert!((after - again).abs() < 2e-4, "{one}");
     }
     let words = ["predict", "examples/03_predict/torque-arm.toml", "--compensated"];
     let ran = trueaxis(&words);

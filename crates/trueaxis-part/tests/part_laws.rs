@@ -25,10 +25,7 @@ fn part(asked: &[(&str, &str, &str)]) -> Part {
             text += &format!("datum = \"{datum}\"\n");
         }
     }
-    let source = SourceText::from(&Files::none(), "p.toml", &text);
-    let part = source.read(|root| Part::read(root, Path::new("")));
-    let problems = source.finish();
-    part.unwrap_or_else(|| panic!("{:?}", problems.iter().map(|p| &p.message).collect::<Vec<_>>()))
+    read_part(&text).unwrap_or_else(|p| panic!("{p:?}"))
 }
 
 fn read_part(text: &str) -> Result<Part, Vec<String>> {
@@ -323,6 +320,36 @@ fn law_a_common_plane_lies_on_both_pads() {
     let deviation_mm: Vec<f64> = part.features.iter().flat_map(of).collect();
     let lean = 99.5 * 5e-3 / 80.0;
     close(&part.evaluate(&deviation_mm).expect("values"), &[lean; 2], 1e-8);
+}
+
+/// What half of the points changes, by hand: a plane that leans and is flat keeps its values with any half; a bore of three sections of three
+/// points has no circle with half of them, so that its diameter counts whole, and nothing else does.
+#[test]
+fn law_what_half_of_the_points_changes() {
+    let text = "name = \"p\"\n[feature.top]\nplane = { at = \"0 0 20 mm\", normal = \"0 0 1\", along = \"1 0 0\", size = \"100 60 mm\" }\n\
+        extraction = { rows = 7, points = 9 }\n\
+        [feature.bore]\nhole = { at = \"10 5 0 mm\", axis = \"0 0 1\", diameter = \"40 mm\", length = \"50 mm\" }\nextraction = { sections = 3, points = 3 }\n\
+        [[characteristic]]\nflatness = \"20 um\"\nof = \"top\"\n[[characteristic]]\nprofile = \"20 um\"\nof = \"top\"\n\
+        [[characteristic]]\nroundness = \"20 um\"\nof = \"bore\"\n[[characteristic]]\nposition = \"20 um\"\nof = \"bore\"\n";
+    let part = read_part(text).unwrap_or_else(|p| panic!("{p:?}"));
+    let by = |name: &str, p: &SurfacePoint| match name {
+        "top" => 1e-4 * p.point_mm.x,
+        // Along X by 3 µm.
+        _ => p.normal.x * 3e-3,
+    };
+    let of = |f: &trueaxis_part::part::Feature| {
+        f.points.iter().map(|p| by(&f.name, p)).collect::<Vec<f64>>()
+    };
+    let deviation_mm: Vec<f64> = part.features.iter().flat_map(of).collect();
+    let values = part.evaluate(&deviation_mm).expect("values");
+    close(&values, &[0.0, 9.95e-3, 0.0, 6e-3], 1e-5);
+    let changes = part.by_points_mm(&deviation_mm).expect("changes");
+    close(&changes, &[0.0, 0.0, 0.0, values[3]], 1e-9);
+    // One high point in the middle of all is in one half and not in the other.
+    let mut high = deviation_mm;
+    high[31] += 5e-3;
+    let changes = part.by_points_mm(&high).expect("changes");
+    assert!((changes[0] - 5e-3).abs() < 1e-6, "{changes:?}");
 }
 
 /// What a reader says of datums that hold nothing, leave what matters free, or stand at another angle.

@@ -37,6 +37,11 @@ impl Part {
     /// # Errors
     /// A list of another length, a deviation that is not finite, points that fit no element.
     pub fn evaluate(&self, deviation_mm: &[f64]) -> Result<Vec<f64>, Error> {
+        self.evaluate_each(deviation_mm)?.into_iter().collect()
+    }
+
+    /// Each of them, or why it has none.
+    fn evaluate_each(&self, deviation_mm: &[f64]) -> Result<Vec<Result<f64, Error>>, Error> {
         let (found, expected) = (deviation_mm.len(), self.points());
         if found != expected {
             return Err(Error::WrongLength { what: "deviations", found, expected });
@@ -64,11 +69,11 @@ impl Part {
             };
             value(asked, &surfaces, &mut systems).map_err(refused)
         });
-        each.collect()
+        Ok(each.collect())
     }
 
-    /// By how much each value changes with half of the rows, or with half of the points of each: the largest change, mm. Twice as many
-    /// points would change it by less. A value that half of the points does not have counts whole.
+    /// By how much each value changes with half of the rows, or with half of the points of each: the largest change, mm. A value that
+    /// half of the points does not have counts whole.
     ///
     /// # Errors
     /// As [`Part::evaluate`].
@@ -78,11 +83,12 @@ impl Part {
             let features = self.features.iter().map(|f| f.thinned(way)).collect();
             let is_kept = self.features.iter().flat_map(|f| &f.is_kept);
             let kept = is_kept.zip(deviation_mm).filter(|(kept, _)| kept[way]).map(|(_, d)| *d);
-            Self { features, ..self.clone() }.evaluate(&kept.collect::<Vec<f64>>()).ok()
+            Self { features, ..self.clone() }.evaluate_each(&kept.collect::<Vec<f64>>()).ok()
         });
         let change = |(i, value): (usize, &f64)| {
-            let of = |found: &Option<Vec<f64>>| {
-                found.as_ref().map_or(value.abs(), |found| (found[i] - value).abs())
+            let of = |found: &Option<Vec<Result<f64, Error>>>| {
+                let found = found.as_ref().and_then(|all| all[i].as_ref().ok());
+                found.map_or(value.abs(), |found| (found - value).abs())
             };
             thinned.iter().map(of).fold(0.0, f64::max)
         };

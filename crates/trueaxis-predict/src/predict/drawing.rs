@@ -10,7 +10,7 @@
 //! ```
 
 mod budget;
-mod corrected;
+mod compensated;
 mod many;
 mod measured;
 mod path;
@@ -18,7 +18,7 @@ mod programmed;
 mod study;
 
 pub use budget::{ErrorEffect, PointEffect, effects};
-pub use corrected::{CorrectedPart, predict_corrected};
+pub use compensated::{Compensated, CompensatedPart, predict_compensated};
 pub use many::{Drawn, ManyParts, cut_with};
 pub use measured::Measured;
 pub use path::{CutPath, Origin};
@@ -59,9 +59,12 @@ impl PartValue {
     /// Its combined standard uncertainty: of the machine, of what lies between the points, anywhere within [`PartValue::points_mm`] on
     /// either side (docs/model.md eq. 323), and of the measurement, mm.
     pub fn combined_mm(&self) -> f64 {
-        let measured_mm = self.measured.map_or(0.0, |m| m.u_mm);
-        self.u_mm.hypot(self.points_mm / 3f64.sqrt()).hypot(measured_mm)
+        combined_mm(self.u_mm, self.points_mm, self.measured)
     }
+}
+
+fn combined_mm(u_mm: f64, points_mm: f64, measured: Option<Measured>) -> f64 {
+    u_mm.hypot(points_mm / 3f64.sqrt()).hypot(measured.map_or(0.0, |m| m.u_mm))
 }
 
 /// A point of a feature as it was cut.
@@ -100,7 +103,7 @@ pub struct PartPrediction {
     /// The same on many machines, if the study asks for it.
     pub drawn: Option<ManyParts>,
     /// The same by the compensated program, if it was asked for.
-    pub corrected: Option<CorrectedPart>,
+    pub compensated: Option<CompensatedPart>,
     /// Files of the program, by the number in [`Origin`].
     pub programs: Vec<String>,
     /// All characteristics together.
@@ -185,7 +188,7 @@ pub fn predict_part(
         values,
         sufficient,
         drawn,
-        corrected: None,
+        compensated: None,
         part,
         programs: run.programs,
         outcome,

@@ -3,7 +3,7 @@
 use super::drawing_document::extremes;
 use super::drawing_pictures::deviation_map;
 use crate::predict::drawing::{
-    CorrectedPart, CutPoint, Drawn, ManyParts, PartPrediction, PartStudy, PartValue, effects,
+    CompensatedPart, CutPoint, Drawn, ManyParts, PartPrediction, PartStudy, PartValue, effects,
 };
 use crate::predict::{Sampling, Spread};
 use trueaxis_part::part::{Characteristic, Limits};
@@ -41,8 +41,8 @@ pub fn drawing_report<'a>(study: &'a PartStudy, prediction: &'a PartPrediction) 
         Some(u_mm) => report.section(measurement(study, prediction, u_mm)),
         None => report,
     };
-    let report = match &prediction.corrected {
-        Some(corrected) => report.section(compensated(study, prediction, corrected)),
+    let report = match &prediction.compensated {
+        Some(found) => report.section(compensated(study, prediction, found)),
         None => report,
     };
     report.section(budget(study, prediction)).section(features(study, prediction))
@@ -68,28 +68,38 @@ fn measurement<'a>(study: &PartStudy, prediction: &PartPrediction, u_mm: f64) ->
 fn compensated<'a>(
     study: &PartStudy,
     prediction: &PartPrediction,
-    corrected: &CorrectedPart,
+    CompensatedPart { zero_kept, zero_set }: &CompensatedPart,
 ) -> Section<'a> {
-    let mut table = Table::new(["all in µm", "before", "compensated", "allowed", "verdict"]);
+    let headings =
+        ["all in µm", "before", "zero kept", "verdict", "zero set again", "verdict", "allowed"];
+    let mut table = Table::new(headings);
     for (i, (asked, value)) in study.part.characteristics.iter().zip(&prediction.values).enumerate()
     {
         table = table.row([
             asked.name.clone(),
             um(value.value_mm),
-            um(corrected.values_mm[i]),
+            um(zero_kept.values_mm[i]),
+            zero_kept.outcomes[i].word().to_owned(),
+            um(zero_set.values_mm[i]),
+            zero_set.outcomes[i].word().to_owned(),
             allowed(&asked.limits),
-            corrected.outcomes[i].word().to_owned(),
         ]);
     }
-    let sentence = match corrected.outcome {
-        Outcome::Pass => "Cut by the compensated program, the part will be in tolerance.",
-        Outcome::Fail => "The compensated program does not bring the part into tolerance.",
-        Outcome::Undecided => {
-            "Cut by the compensated program, the part is within U of a limit: there is no verdict."
+    let sentence = match (zero_kept.outcome, zero_set.outcome) {
+        (Outcome::Pass, Outcome::Pass) => {
+            "Cut by the compensated program, the part will be in tolerance."
         }
+        (_, Outcome::Pass) => {
+            "Cut by the compensated program, the part will be in tolerance if the zero is set again."
+        }
+        (Outcome::Pass, _) => {
+            "Cut by the compensated program, the part will be in tolerance if the zero is kept."
+        }
+        _ => "The compensated program does not bring the part surely into tolerance.",
     };
     let note = "By the program that `compensate program` writes (residual and increment 1 µm), on the same machine, with the same u. \
-                The zero stays where it was set: what counts from it keeps the error of the tip there.";
+                Zero kept: where it was set without compensation, so that what counts from it keeps the error of the tip there. Zero set \
+                again: by motion that is compensated, too.";
     Section::new("With the program compensated").paragraph(sentence).table(table.note(note))
 }
 

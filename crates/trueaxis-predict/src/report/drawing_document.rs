@@ -3,8 +3,8 @@
 use super::prediction_document::SpreadEntry;
 use crate::predict::Sampling;
 use crate::predict::drawing::{
-    CorrectedPart, CutPoint, Drawn, ManyParts, PartPrediction, PartStudy, PartValue, PointEffect,
-    effects,
+    Compensated, CompensatedPart, CutPoint, Drawn, ManyParts, PartPrediction, PartStudy, PartValue,
+    PointEffect, effects,
 };
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -25,9 +25,12 @@ pub struct DrawingDocument<'a> {
     pub part: &'a str,
     /// `pass`, `fail`, or `undecided` within the uncertainty.
     pub outcome: &'static str,
-    /// The same by the compensated program; absent unless it was asked for.
+    /// The same by the compensated program, the zero where it was set; absent unless it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub compensated_outcome: Option<&'static str>,
+    /// The same with the zero set again by compensated motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub compensated_zero_set_outcome: Option<&'static str>,
     /// Errors each of whose corrections alone brings all characteristics into tolerance, the best first; empty where they are.
     pub sufficient: Vec<String>,
     /// Steps of the tools.
@@ -75,9 +78,12 @@ pub struct CharacteristicEntry<'a> {
     pub used_ratio: f64,
     /// `pass`, `fail` or `undecided`.
     pub outcome: &'static str,
-    /// By the compensated program; absent unless it was asked for.
+    /// By the compensated program, the zero where it was set; absent unless it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub compensated: Option<CompensatedEntry>,
+    /// The same with the zero set again by compensated motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub compensated_zero_set: Option<CompensatedEntry>,
     /// From the Monte Carlo run; absent if there was none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub monte_carlo: Option<DrawnEntry>,
@@ -182,24 +188,29 @@ pub struct PointEffectEntry {
     pub part_mm: f64,
 }
 
+impl CompensatedEntry {
+    fn of(part: &Compensated, i: usize) -> Self {
+        Self { value_mm: part.values_mm[i], outcome: part.outcomes[i].word() }
+    }
+}
+
 impl<'a> DrawingDocument<'a> {
     /// The document of a prediction.
     pub fn of(study: &'a PartStudy, prediction: &'a PartPrediction) -> Self {
         let part = &study.part;
         let drawn = prediction.drawn.as_ref();
         let asked = part.characteristics.iter().zip(&prediction.values).enumerate();
-        let corrected = prediction.corrected.as_ref();
-        let compensated = |i: usize| {
-            let entry = |c: &CorrectedPart| CompensatedEntry {
-                value_mm: c.values_mm[i],
-                outcome: c.outcomes[i].word(),
-            };
-            corrected.map(entry)
-        };
+        let after = prediction.compensated.as_ref();
+        let (kept, set) =
+            (after.map(|c| &c.zero_kept), after.map(|c: &CompensatedPart| &c.zero_set));
         let entry = |(i, (asked, value))| {
             let drawn = drawn.map(|d| d.characteristics[i]);
             let entry = CharacteristicEntry::of(&part.features, asked, (value, drawn));
-            CharacteristicEntry { compensated: compensated(i), ..entry }
+            CharacteristicEntry {
+                compensated: kept.map(|c| CompensatedEntry::of(c, i)),
+                compensated_zero_set: set.map(|c| CompensatedEntry::of(c, i)),
+                ..entry
+            }
         };
         let many = |(s, drawn): (Sampling, &ManyParts)| ManyEntry {
             samples: s.samples,
@@ -212,7 +223,8 @@ impl<'a> DrawingDocument<'a> {
             name: &study.name,
             part: &part.name,
             outcome: prediction.outcome.word(),
-            compensated_outcome: corrected.map(|c| c.outcome.word()),
+            compensated_outcome: kept.map(|c| c.outcome.word()),
+            compensated_zero_set_outcome: set.map(|c| c.outcome.word()),
             sufficient: prediction.sufficient.iter().map(ToString::to_string).collect(),
             steps: prediction.steps,
             errors_without_u: &prediction.errors_without_u,
@@ -252,6 +264,7 @@ impl<'a> CharacteristicEntry<'a> {
             used_ratio: value.used_ratio,
             outcome: value.outcome.word(),
             compensated: None,
+            compensated_zero_set: None,
             monte_carlo: drawn
                 .map(|d| DrawnEntry { values: d.spread.into(), good_ratio: d.good_ratio }),
             errors: effects(value, MOST_ERRORS).map(effect).collect(),

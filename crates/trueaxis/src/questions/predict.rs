@@ -11,7 +11,7 @@ use trueaxis_nc::Program;
 use trueaxis_part::qif::results::{Found, results, results_csv};
 use trueaxis_part::tolerance::Outcome;
 use trueaxis_predict::predict::drawing::{
-    CorrectedPart, PartPrediction, PartStudy, PartValue, is_part_study, predict_corrected,
+    CompensatedPart, PartPrediction, PartStudy, PartValue, is_part_study, predict_compensated,
     predict_part, read_part_study,
 };
 use trueaxis_predict::predict::holes::{
@@ -129,7 +129,7 @@ impl Predict {
         study: &PartStudy,
         prediction: &PartPrediction,
         problems: &mut Diagnostics,
-    ) -> Option<CorrectedPart> {
+    ) -> Option<CompensatedPart> {
         let job = &study.job;
         let options = ProgramOptions::default();
         let (rewritten, found) =
@@ -138,7 +138,7 @@ impl Predict {
         let rewritten = rewritten?;
         problems.append(rewritten.unproved);
         let program = Program::new(job.program.file(), rewritten.text, job.control);
-        predict_corrected(study, prediction, &program, problems)
+        predict_compensated(study, prediction, &program, problems)
     }
 
     fn place(&self) -> Place {
@@ -214,7 +214,8 @@ impl Question for Predict {
             PredictInput::Drawing(study) => {
                 let mut prediction = predict_part(&study, progress, problems)?;
                 if self.compensated {
-                    prediction.corrected = Some(self.compensated(&study, &prediction, problems)?);
+                    prediction.compensated =
+                        Some(self.compensated(&study, &prediction, problems)?);
                 }
                 let results = self.results_of(&study, &prediction, problems);
                 Some(Predicted::Drawing(study, Box::new(prediction), results))

@@ -29,17 +29,16 @@ pub(super) const SHAPES: [&str; 14] = [
 pub(super) fn usual_spacing(geometry: &Geometry) -> f64 {
     // There are 48 points around at least; sections stand twice as far apart.
     let round = |radius_mm: f64| PI * radius_mm / 12.0;
-    // At least three rows on a narrow strip.
-    let flat = |[a, b]: &[f64; 2], share: f64| (share * a.max(*b)).min(a.min(*b) / 3.0);
     match geometry {
-        Geometry::Plane { size_mm, .. } | Geometry::Slot { size_mm, .. } => flat(size_mm, 0.025),
+        Geometry::Plane { size_mm: [a, b], .. }
+        | Geometry::Slot { size_mm: [a, b], .. }
+        | Geometry::Programmed { size_mm: [a, b], .. } => 0.025 * a.max(*b),
         Geometry::Cylinder { radius_mm, .. } => round(*radius_mm),
         Geometry::Cone { radii_mm, .. } => round(radii_mm[0].max(radii_mm[1])),
         Geometry::Sphere { radius_mm, opening_rad, .. } => 0.1 * radius_mm * opening_rad,
         Geometry::Torus { ring_mm, radius_mm, .. } => {
             (PI * ring_mm / 18.0).min(PI * radius_mm / 12.0)
         }
-        Geometry::Programmed { size_mm, .. } => flat(size_mm, 0.025),
         Geometry::Points => 1.0,
     }
 }

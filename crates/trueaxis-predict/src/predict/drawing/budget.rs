@@ -3,7 +3,7 @@
 use super::many::{ManyParts, many};
 use super::measured::measured;
 use super::path::CutPath;
-use super::{PartStudy, PartValue, outcome};
+use super::{PartStudy, PartValue, combined_mm, outcome};
 use rayon::prelude::*;
 use trueaxis_cut::{Cut, Nail};
 use trueaxis_geometry::Vec3;
@@ -177,18 +177,18 @@ pub(super) fn values(
         let mut errors: Vec<ErrorEffect> = stated.iter().zip(&without).map(of).collect();
         let change = |e: &ErrorEffect| (value_mm - e.without_mm).abs();
         errors.sort_by(|a, b| change(b).total_cmp(&change(a)));
-        let value = PartValue {
+        let measured = by_measuring.as_ref().map(|all| all[i]);
+        let combined_mm = combined_mm(u_mm, points_mm, measured);
+        PartValue {
             value_mm,
             u_mm,
             points_mm,
-            measured: by_measuring.as_ref().map(|all| all[i]),
+            measured,
             nominal_mm: nominal[i],
             used_ratio: asked.limits.used(value_mm),
-            outcome: Outcome::Undecided,
+            outcome: outcome(&asked.limits, value_mm, combined_mm, study.decision),
             errors,
-        };
-        let outcome = outcome(&asked.limits, value_mm, value.combined_mm(), study.decision);
-        PartValue { outcome, ..value }
+        }
     };
     let values = part.characteristics.iter().enumerate().map(value).collect();
     let at = |point: usize| {
