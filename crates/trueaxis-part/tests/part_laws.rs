@@ -352,6 +352,61 @@ fn law_what_half_of_the_points_changes() {
     assert!((changes[0] - 5e-3).abs() < 1e-6, "{changes:?}");
 }
 
+/// Two pads, each with a strip along its middle that is 4 µm higher: the plane on both touches the strips, and the top is 4 µm farther from it.
+#[test]
+fn law_a_common_plane_touches_what_stands_out() {
+    let pad = |name: &str, x: i32| {
+        format!(
+            "[feature.{name}]\nplane = {{ at = \"{x} 0 0 mm\", normal = \"0 0 -1\", along = \"1 0 0\", size = \"20 60 mm\" }}\n"
+        )
+    };
+    let text = [
+        "name = \"p\"\n",
+        &pad("one", -40),
+        &pad("other", 40),
+        "[feature.top]\nplane = { at = \"0 0 20 mm\", normal = \"0 0 1\", along = \"1 0 0\", size = \"100 60 mm\" }\n",
+        "[[characteristic]]\nposition = \"20 um\"\nof = \"top\"\ndatum = \"one-other\"\n",
+    ];
+    let part = read_part(&text.concat()).unwrap_or_else(|p| panic!("{p:?}"));
+    let high = |f: &str, p: &SurfacePoint| {
+        if f != "top" && p.point_mm.y.abs() < 10.0 { 4e-3 } else { 0.0 }
+    };
+    let points = part.features.iter().flat_map(|f| f.points.iter().map(|p| high(&f.name, p)));
+    let deviation_mm: Vec<f64> = points.collect();
+    close(&part.evaluate(&deviation_mm).expect("values"), &[8e-3], 1e-8);
+}
+
+/// Three pads of a wall turn the part about a hole that holds its place: they cannot shift it, so that the largest distance on either side is least.
+/// The third, 60 mm off, misses 6 µm: t · 41.8 = 6 − t · 58.2 to the outermost points, t = 60 µrad, 3 µm at a bore 50 mm away.
+#[test]
+fn law_common_pads_turn_the_part_about_a_hole() {
+    let pad = |name: &str, x: i32| {
+        format!(
+            "[feature.{name}]\nplane = {{ at = \"{x} -30 10 mm\", normal = \"0 -1 0\", along = \"1 0 0\", size = \"4.1 4.1 mm\" }}\n"
+        )
+    };
+    let hole = |name: &str, x: i32| {
+        format!(
+            "[feature.{name}]\nhole = {{ at = \"{x} 0 0 mm\", axis = \"0 0 1\", diameter = \"10 mm\", length = \"20 mm\" }}\n"
+        )
+    };
+    let text = [
+        "name = \"p\"\n[feature.base]\nplane = { at = \"0 0 0 mm\", normal = \"0 0 -1\", size = \"100 60 mm\" }\n",
+        &pad("P", -40),
+        &pad("Q", 40),
+        &pad("R", 60),
+        &hole("pivot", 0),
+        &hole("bore", 50),
+        "[[characteristic]]\nposition = \"20 um\"\nof = \"bore\"\ndatum = \"base|pivot|P-Q-R\"\n",
+    ];
+    let part = read_part(&text.concat()).unwrap_or_else(|p| panic!("{p:?}"));
+    let of = |f: &trueaxis_part::part::Feature| {
+        vec![if f.name == "R" { -6e-3 } else { 0.0 }; f.points.len()]
+    };
+    let deviation_mm: Vec<f64> = part.features.iter().flat_map(of).collect();
+    close(&part.evaluate(&deviation_mm).expect("values"), &[6e-3], 1e-6);
+}
+
 /// What a reader says of datums that hold nothing, leave what matters free, or stand at another angle.
 #[test]
 fn datums_that_do_not_do_are_refused_by_name() {

@@ -122,6 +122,52 @@ fn law_the_middle_of_two_faces_as_datum() {
     for found in values(&text, &farther) {
         near(found, 4e-3, 1e-8);
     }
+    let (none, problems) = read(&text.replace("at = \"0 30 15 mm\"", "at = \"0 31 15 mm\""));
+    assert!(none.is_none() && problems.iter().any(|p| p.code == "wrong-place"), "{problems:?}");
+}
+
+/// Two slots in line, one 4 µm off, the other −2 µm, of other widths than they should have: their common middle goes through those of both, and
+/// the middle of a slot between them is 1 + 6/80 · 9.75 µm off it at its end.
+#[test]
+fn law_the_common_middle_of_two_slots() {
+    let slot = |name: &str, x: i32| {
+        format!(
+            "[feature.{name}]\nslot = {{ at = \"{x} 0 20 mm\", across = \"0 1 0\", along = \"1 0 0\", width = \"12 mm\", size = \"20 10 mm\" }}\n"
+        )
+    };
+    let text = [
+        "name = \"p\"\n",
+        &slot("one", -40),
+        &slot("other", 40),
+        &slot("mid", 0),
+        &asked("symmetry", "mid", "one-other"),
+    ];
+    for [wider, narrower] in [[0.0, 0.0], [15e-3, 8e-3], [-4e-3, 11e-3]] {
+        let by = |f: &Feature, p: &SurfacePoint| match f.name.as_str() {
+            "one" => 4e-3 * p.normal.y - wider,
+            "other" => -2e-3 * p.normal.y + narrower,
+            _ => 0.0,
+        };
+        near(values(&text.concat(), &by)[0], 2.0 * (1e-3 + 6e-3 / 80.0 * 9.75), 1e-8);
+    }
+}
+
+/// Half of the points of a slot are still pairs that face each other: where the whole slot leans along its height no half of them has
+/// another middle.
+#[test]
+fn law_half_of_a_slot_has_its_middle() {
+    let text = [BASE, SLOT, &asked("position", "slot", ""), &asked("width", "slot", "")].concat();
+    let part = part(&text);
+    let lean = |p: &SurfacePoint| 1e-4 * (p.point_mm.z - 20.0) * p.normal.y;
+    let deviation_mm: Vec<f64> = part
+        .features
+        .iter()
+        .flat_map(|f| f.points.iter().map(|p| if f.name == "slot" { lean(p) } else { 0.0 }))
+        .collect();
+    near(part.evaluate(&deviation_mm).expect("values")[0], 2.0 * 4.75e-4, 1e-9);
+    for change in part.by_points_mm(&deviation_mm).expect("changes") {
+        near(change, 0.0, 1e-9);
+    }
 }
 
 /// A keyway whose sides lie 3 µm off, 10 to 15 mm from the axis of its shaft: the zone turns about the axis until both ends are equally far off,

@@ -536,6 +536,15 @@ fn law_a_program_that_is_corrected_by_hand() {
     let after = found.zero_kept;
     assert!(after.values_mm.iter().all(|v| v.abs() < 2e-5), "{after:?}");
     assert_eq!(after.outcome, trueaxis_part::tolerance::Outcome::Pass);
+    // ± 10 µrad are ± 0.695 µm of profile as before, U = 1.39 µm: 1 µm is not surely kept.
+    let (machine, part) = (mill("EC0Y = \"100 ± 10 urad\""), part.replace("10 um", "1 um"));
+    let guarded = format!("{STUDY}[decision]\nrule = \"ISO 14253-1\"\n");
+    let texts = [("m.toml", machine.as_str()), ("p.toml", &part), ("s.toml", &guarded)];
+    let study = self::study(&texts).unwrap_or_else(|p| panic!("{:?}", words(&p)));
+    let before = predict_part(&study, &|_| {}, &mut problems).expect("a prediction");
+    let program = Program::new("p.nc", corrected.into(), study.job.control);
+    let after = predict_compensated(&study, &before, &program, &mut problems).expect("a part");
+    assert_eq!(after.zero_kept.outcome, trueaxis_part::tolerance::Outcome::Undecided);
 }
 
 /// A measuring machine with 2 µm per point, four sections of twelve points: u of the least-squares diameter is 2 · 2/√48 µm, whatever the form; what is
