@@ -7,12 +7,14 @@
 //!
 //! Nails ([`crate::cut`]) say exactly what a surface is off; dexels say what is still there anywhere, to their resolution.
 
+mod clear;
 mod line;
 mod scan;
 mod surface;
 
 use crate::Cutter;
 use crate::motion::ToolPose;
+use clear::{Clear, Travel};
 use line::{Body, Material, Stretch};
 use rayon::prelude::*;
 use thiserror::Error;
@@ -246,9 +248,11 @@ impl Stock {
         let bounds = [self.low_mm, self.high_mm];
         let mut all = Vec::with_capacity(steps.len());
         for steps in steps.chunks(CHUNK) {
-            let bodies = steps.iter().enumerate();
-            let bodies: Vec<(usize, Body<'_>)> =
-                bodies.filter_map(|(i, step)| Some((i, Body::of(step, &bounds)?))).collect();
+            let (travels, cutters) = clear::travels(steps, &bounds);
+            let come = |(i, step)| {
+                Some(Coming { of: i, body: Body::of(step, &bounds)?, travel: travels[i] })
+            };
+            let bodies: Vec<Coming<'_>> = steps.iter().enumerate().filter_map(come).collect();
             let mut taken = vec![Taken::default(); steps.len()];
             for (k, grid) in self.grids.iter_mut().enumerate().filter(|_| !bodies.is_empty()) {
                 let part = self.part.as_deref();
@@ -259,9 +263,15 @@ impl Stock {
                     if row.iter().all(Vec::is_empty) {
                         return sums;
                     }
-                    lines.pass(&bodies, j, &mut sums, |i, body, at| {
+                    let mut clear = Clear::new(in_row, cutters);
+                    lines.pass(&bodies, j, &mut sums, |i, Coming { body, travel, .. }, at| {
+                        if clear.is(i, travel) {
+                            return Stretch::default();
+                        }
                         let part = part.map(|p| (&*p[k].material[j * in_row + i], p));
-                        line::take(&mut row[i], part, body, (at, k))
+                        let (taken, distance_mm) = line::take(&mut row[i], part, body, (at, k));
+                        clear.note(i, travel, distance_mm);
+                        taken
                     });
                     sums
                 };
@@ -272,6 +282,13 @@ impl Stock {
         }
         all
     }
+}
+
+/// A body that may meet the stock, the step that it is of, and how far its cutter came.
+struct Coming<'c> {
+    of: usize,
+    body: Body<'c>,
+    travel: Travel,
 }
 
 /// Sums of the rows in their order, so that they do not depend on the number of threads.
@@ -289,14 +306,15 @@ impl Lines {
     /// Each line of a row that a body may meet, body after body.
     fn pass(
         &self,
-        bodies: &[(usize, Body<'_>)],
+        bodies: &[Coming<'_>],
         j: usize,
         sums: &mut Vec<(usize, Stretch)>,
-        mut take: impl FnMut(usize, &Body<'_>, &Vec3) -> Stretch,
+        mut take: impl FnMut(usize, &Coming<'_>, &Vec3) -> Stretch,
     ) {
         let v = self.first_mm[1] + j as f64 * self.step_mm[1];
         let [a, b] = self.across;
-        for (pose, body) in bodies {
+        for coming in bodies {
+            let body = &coming.body;
             if v < body.low_mm[b] || v > body.high_mm[b] {
                 continue;
             }
@@ -310,10 +328,10 @@ impl Lines {
                 let mut at = Vec3::zeros();
                 at[a] = self.first_mm[0] + i as f64 * self.step_mm[0];
                 at[b] = v;
-                sum.add(&take(i, body, &at));
+                sum.add(&take(i, coming, &at));
             }
             if sum.length_mm > 0.0 {
-                sums.push((*pose, sum));
+                sums.push((coming.of, sum));
             }
         }
     }

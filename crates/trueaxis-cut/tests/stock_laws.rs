@@ -218,6 +218,37 @@ proptest! {
         }
     }
 
+    /// Poses that come together take the same bits as each alone: what is skipped as out of reach was out of reach. Small ways and
+    /// large ones, leaning, narrow cutters and wide ones, two of them in turns.
+    #[test]
+    fn law_poses_together_take_what_each_takes_alone(
+        cutters in [cutters(), cutters()],
+        wide in 10.0..90.0_f64,
+        poses in poses(),
+        parts in 1..60_usize,
+    ) {
+        let wide = Cutter::flat(wide, 60.0).expect("a cutter");
+        let between = |p: &[ToolPose]| {
+            (0..parts).map(|k| p[0].towards(&p[1], k as f64 / parts as f64)).collect::<Vec<_>>()
+        };
+        let path: Vec<ToolPose> = poses.windows(2).flat_map(between).collect();
+        let step = |(k, pose): (usize, &ToolPose)| {
+            let cutter = [&cutters[0], &cutters[1], &wide][k % 3];
+            let takes = k % 4 != 1;
+            let lifted_mm = if k % 3 == 2 { 6.0 } else { 0.0 };
+            let tip_mm = pose.tip_mm + pose.axis * lifted_mm;
+            Step { cutter, pose: ToolPose { tip_mm, ..*pose }, inset_mm: if takes { 0.0 } else { 0.02 }, takes }
+        };
+        let steps: Vec<Step<'_>> = path.iter().enumerate().map(step).collect();
+        let (mut together, mut alone) = (block(1.1), block(1.1));
+        let all = together.work(&steps);
+        let each: Vec<_> = steps.iter().flat_map(|s| alone.work(std::slice::from_ref(s))).collect();
+        prop_assert_eq!(all, each);
+        for along in 0..3 {
+            prop_assert!(together.lines(along).eq(alone.lines(along)));
+        }
+    }
+
     /// The order of the poses, a second pass, the division into chunks, the sense of the axes of the frame: nothing changes what remains.
     #[test]
     fn law_what_should_not_matter_to_stock(cutter in cutters(), poses in poses()) {

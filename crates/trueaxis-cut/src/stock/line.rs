@@ -167,26 +167,32 @@ pub(super) fn overlap(material: &[[f64; 2]], stretch: [f64; 2]) -> f64 {
 }
 
 /// What of the line through a place along an axis is inside of the body, and off it if the body takes it; the place has the coordinate 0 there.
+/// And no material of the line is nearer to the cutter than the distance that comes with it (0 where it is not known), mm.
 pub(super) fn take(
     material: &mut Material,
     part: Option<(&[[f64; 2]], &[Grid; 3])>,
     body: &Body<'_>,
     (at, along): (&Vec3, usize),
-) -> Stretch {
+) -> (Stretch, f64) {
     let mut taken = Stretch::default();
     let box_mm = [body.low_mm[along], body.high_mm[along]];
     if material.iter().all(|s| s[1] <= box_mm[0] || s[0] >= box_mm[1]) {
-        return taken;
+        return (taken, 0.0);
     }
     let line = Line::through(body, at, along);
+    let mut clear_mm = f64::MAX;
     let mut k = 0;
     while k < material.len() {
         let stretch = material[k];
-        let Some(inside) = inside(stretch, body, &line, box_mm) else {
-            k += 1;
-            continue;
+        let [from, to] = match inside(stretch, body, &line, box_mm) {
+            Ok(inside) => inside,
+            Err(distance) => {
+                clear_mm = clear_mm.min(distance - body.inset_mm);
+                k += 1;
+                continue;
+            }
         };
-        let [from, to] = inside;
+        clear_mm = 0.0;
         taken.length_mm += to - from;
         taken.longest_mm = taken.longest_mm.max(to - from);
         if let Some((own, part)) = part {
@@ -230,25 +236,39 @@ pub(super) fn take(
             }
         }
     }
-    taken
+    (taken, clear_mm)
 }
 
-/// The part of a stretch that is inside of the body; outside of its box there is none.
-fn inside(stretch: [f64; 2], body: &Body<'_>, line: &Line, box_mm: [f64; 2]) -> Option<[f64; 2]> {
+/// The part of a stretch that is inside of the body; outside of its box there is none. Otherwise what the distance of the stretch from it is at
+/// least, not above 0 where that is not known.
+fn inside(
+    stretch: [f64; 2],
+    body: &Body<'_>,
+    line: &Line,
+    box_mm: [f64; 2],
+) -> Result<[f64; 2], f64> {
     let (low, high) = (stretch[0].max(box_mm[0]), stretch[1].min(box_mm[1]));
     if low >= high {
-        return None;
+        return Err(0.0);
     }
-    // The distance is convex along the line: where it grows away from the stretch the body is not in it.
+    // The distance is convex along the line: where it grows away from the stretch the body is not in it, and it lies above its tangents.
     let (far, slope) = line.distance(body, high);
     if far > 0.0 && slope <= 0.0 {
-        return None;
+        return Err(far + slope * (stretch[1] - high));
     }
     let (near, first) = line.distance(body, low);
     if near > 0.0 && first >= 0.0 {
-        return None;
+        return Err(near + first * (stretch[0] - low));
     }
-    let from = if near <= 0.0 { low } else { line.enter(body, (low, near, first), high)? };
-    let to = if far <= 0.0 { high } else { line.enter(body, (high, far, slope), low)? };
-    (to - from > SHORTEST_MM).then_some([from, to])
+    if near > 0.0 && far > 0.0 {
+        let crossing = low + (far - near + slope * (low - high)) / (first - slope);
+        let least = near + first * (crossing - low);
+        if least > CLOSE_MM {
+            return Err(least);
+        }
+    }
+    let enter = |from, end| line.enter(body, from, end).ok_or(0.0);
+    let from = if near <= 0.0 { low } else { enter((low, near, first), high)? };
+    let to = if far <= 0.0 { high } else { enter((high, far, slope), low)? };
+    if to - from > SHORTEST_MM { Ok([from, to]) } else { Err(0.0) }
 }
