@@ -8660,6 +8660,10 @@ export interface PartCharacteristicEntry {
    */
   datums: string[];
   /**
+   * How far its zone reaches beyond the end of the axis, below 0 beyond its beginning; absent without a projected zone, mm.
+   */
+  projected_mm?: number | null;
+  /**
    * The least value allowed; null for a zone, mm.
    */
   low_mm: number | null;
@@ -9892,6 +9896,10 @@ export interface CharacteristicEntry {
    * To which features, the first datum first; empty: to the zero that was set.
    */
   datums: string[];
+  /**
+   * How far its zone reaches beyond the end of the axis, below 0 beyond its beginning; absent without a projected zone, mm.
+   */
+  projected_mm?: number | null;
   /**
    * Its value; of a size the deviation from the nominal one, mm.
    */

@@ -29,6 +29,8 @@ const STOCK: &str = "stock";
 const MOST_POSES: usize = 50_000_000;
 /// A cutter is no wider than so many times the diagonal of the stock.
 const WIDEST: f64 = 10.0;
+/// A tool is no longer than so many times that.
+const LONGEST: f64 = 100.0;
 /// Places of the lattice of a picture.
 const MOST_PLACES: usize = 600_000;
 /// Without a stated resolution the longest edge of the stock has so many lines.
@@ -392,12 +394,18 @@ impl Tool {
 }
 
 impl Tool {
-    /// A cutter many times as wide as the stock is a slip of the unit.
+    /// A tool many times as wide or as long as the stock is a slip of the unit; its way through the stock would have no end.
     fn fits(self, diagonal_mm: f64) -> Result<Self, String> {
         let width_mm = 2.0 * self.cutter.widest_mm();
         if width_mm > WIDEST * diagonal_mm {
             return Err(format!(
                 "it is {width_mm:.0} mm wide, and the stock measures {diagonal_mm:.0} mm across its corners"
+            ));
+        }
+        if self.reach_mm > LONGEST * diagonal_mm {
+            return Err(format!(
+                "it is {:.0} mm long, and the stock measures {diagonal_mm:.0} mm across its corners",
+                self.reach_mm
             ));
         }
         Ok(self)

@@ -9,12 +9,13 @@ mod characteristic;
 mod datum;
 mod feature;
 mod file;
+mod lines;
 mod pattern;
 mod values;
 
 pub use characteristic::{Characteristic, Datum, Kind, Limits};
 pub(crate) use feature::across;
-pub use feature::{Extraction, Feature, Geometry, Sampled, every_second};
+pub use feature::{Extraction, Feature, Geometry, Sampled};
 
 /// A checked part file.
 #[derive(Debug, Clone, PartialEq)]

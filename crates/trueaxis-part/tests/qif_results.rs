@@ -24,7 +24,9 @@ fn written(part: &Part, found: &[Found]) -> String {
 fn qif_kind(kind: Kind) -> String {
     match kind {
         Kind::Roundness => "Circularity".to_owned(),
+        Kind::LineStraightness => "Straightness".to_owned(),
         Kind::Profile => "SurfaceProfile".to_owned(),
+        Kind::LineProfile => "LineProfile".to_owned(),
         Kind::CircularRunOut => "CircularRunout".to_owned(),
         Kind::TotalRunOut => "TotalRunout".to_owned(),
         _ => kind.key()[..1].to_uppercase() + &kind.key()[1..],

@@ -26,17 +26,22 @@ fn drafted(part: &Part) -> (Part, Vec<(String, String)>) {
     (read.unwrap_or_else(|| panic!("{problems:?}\n{text}")), left)
 }
 
-/// The reader knows no slots, tori, tables and programs, no zone from the zero that was set, and no common zone.
+/// The reader knows no slots, tori, tables and programs, no zone from the zero that was set, no common and no projected zone, no straightness of lines
+/// of what has no axis.
 fn is_known(part: &Part, asked: &Characteristic) -> bool {
     use Geometry::{Cone, Cylinder, Plane, Sphere};
     let is_shape = |f: &usize| {
         let shape = &part.features[*f].geometry;
         matches!(shape, Plane { .. } | Cylinder { .. } | Cone { .. } | Sphere { .. })
     };
+    let has_axis =
+        matches!(part.features[asked.features[0]].geometry, Cylinder { .. } | Cone { .. });
     let is_pattern = asked.features.len() > 1;
     asked.features.iter().chain(asked.datums.iter().flat_map(|d| &d.features)).all(is_shape)
         && !(asked.kind.is_located() && asked.datums.is_empty())
         && !(asked.kind == Kind::Position && is_pattern)
+        && asked.projected_mm.is_none()
+        && (asked.kind != Kind::LineStraightness || has_axis)
 }
 
 /// Numbers of a shape are those of the other one.

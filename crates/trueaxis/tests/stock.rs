@@ -233,12 +233,16 @@ fn what_cannot_be_cut_is_refused() {
     let without = SET_UP.split("[stock]").next().expect("a set-up");
     assert!(refused(without).contains("states no stock"));
     assert!(refused(&SET_UP.replace("0.5 mm", "0.00001 mm")).contains("lines"));
-    // A tool without a diameter, and one of 10 m.
-    for diameter in ["", "diameter = \"10 m\"\n"] {
-        let set_up = SET_UP.replace("diameter = \"10 mm\"\n", diameter);
+    // A tool without a diameter, one that is 10 m wide, and one that is 10 m long.
+    let long = SET_UP.replace("\"90 mm\"", "\"10 m\"") + "[plausible]\ntool_length_mm = 20_000\n";
+    for set_up in [
+        SET_UP.replace("diameter = \"10 mm\"\n", ""),
+        SET_UP.replace("diameter = \"10 mm\"\n", "diameter = \"10 m\"\n"),
+        long,
+    ] {
         let job = job(MILL, &set_up, &program(SLOT), Options::default());
         let machining = Machining::watch(&job.setup).expect("a stock");
         let found = job.run_on(None, Some(machining), &mut []);
-        assert!(found.run.problems.iter().any(|p| p.code == "unknown-cutter"), "{diameter}");
+        assert!(found.run.problems.iter().any(|p| p.code == "unknown-cutter"), "{set_up}");
     }
 }

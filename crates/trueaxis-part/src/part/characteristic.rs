@@ -9,6 +9,8 @@ pub enum Kind {
     Flatness,
     /// Of the axis of a cylinder or cone: the smallest cylinder around its median line.
     Straightness,
+    /// Of the lines of a plane along its first edge, of a cylinder or cone along its axis: the worst of them, each in the plane of the normals.
+    LineStraightness,
     /// Of a cylinder or cone: the largest of its sections.
     Roundness,
     /// Of a cylinder.
@@ -19,6 +21,8 @@ pub enum Kind {
     Width,
     /// Of any surface: the width of the zone about the nominal surface that holds all of it.
     Profile,
+    /// Of the lines of a surface, each by itself in its plane: of a cylinder or cone those around, of others those along the first edge.
+    LineProfile,
     /// Of a plane or an axis to datums, at the angle of the nominal part.
     Angularity,
     /// Of a plane or an axis to a datum.
@@ -96,20 +100,24 @@ pub struct Characteristic {
     pub features: Vec<usize>,
     /// To which datums, the first of them first; none: to the zero that was set.
     pub datums: Vec<Datum>,
+    /// Of a projected zone, how far it reaches beyond the end of the axis; negative: beyond its beginning.
+    pub projected_mm: Option<f64>,
     /// What is allowed.
     pub limits: Limits,
 }
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 17] = [
         Self::Flatness,
         Self::Straightness,
+        Self::LineStraightness,
         Self::Roundness,
         Self::Cylindricity,
         Self::Diameter,
         Self::Width,
         Self::Profile,
+        Self::LineProfile,
         Self::Angularity,
         Self::Parallelism,
         Self::Perpendicularity,
@@ -125,11 +133,13 @@ impl Kind {
         match self {
             Self::Flatness => "flatness",
             Self::Straightness => "straightness",
+            Self::LineStraightness => "line_straightness",
             Self::Roundness => "roundness",
             Self::Cylindricity => "cylindricity",
             Self::Diameter => "diameter",
             Self::Width => "width",
             Self::Profile => "profile",
+            Self::LineProfile => "line_profile",
             Self::Angularity => "angularity",
             Self::Parallelism => "parallelism",
             Self::Perpendicularity => "perpendicularity",
@@ -146,6 +156,8 @@ impl Kind {
         match self {
             Self::CircularRunOut => "circular run-out",
             Self::TotalRunOut => "total run-out",
+            Self::LineStraightness => "straightness of lines",
+            Self::LineProfile => "line profile",
             _ => self.key(),
         }
     }
@@ -176,7 +188,7 @@ impl Kind {
 
     /// Whether its zone has a place: the datums, or the zero that was set, fix all that would move it.
     pub fn is_located(self) -> bool {
-        matches!(self, Self::Profile | Self::Position | Self::Symmetry)
+        matches!(self, Self::Profile | Self::LineProfile | Self::Position | Self::Symmetry)
     }
 
     /// Whether its zone has a direction only.

@@ -3,7 +3,7 @@
 mod moved;
 mod sampled;
 
-pub use sampled::{Extraction, Sampled, every_second};
+pub use sampled::{Extraction, Sampled};
 
 use std::ops::Range;
 use trueaxis_form::{Element, Shape};
@@ -129,7 +129,7 @@ pub struct Feature {
     /// Which points remain with every second row, with the other rows, with every second point of each row, and with the others; of a
     /// table with every second point and with the others.
     pub is_kept: Vec<[bool; 4]>,
-    /// Which points make a section across the axis; none on planes and tables.
+    /// Which points make a row, of what has an axis a section across it; none of a table.
     pub sections: Vec<Range<usize>>,
     /// How far into the material it is looked; on a thin wall less than half of it.
     pub below_mm: f64,
@@ -140,18 +140,11 @@ pub struct Feature {
 impl Feature {
     /// With half of its rows (0, 1), or with half of the points of each (2, 3).
     pub(super) fn thinned(&self, way: usize) -> Self {
-        let kept = |range: Range<usize>| range.filter(|i| self.is_kept[*i][way]);
-        let points: Vec<SurfacePoint> =
-            kept(0..self.points.len()).map(|i| self.points[i]).collect();
-        let mut from = 0;
-        let section = |range: &Range<usize>| {
-            let count = kept(range.clone()).count();
-            from += count;
-            from - count..from
-        };
-        let sections = self.sections.iter().map(section).filter(|s| !s.is_empty());
+        let is_there: Vec<bool> = self.is_kept.iter().map(|kept| kept[way]).collect();
+        let points = self.points.iter().zip(&is_there).filter(|(_, is)| **is).map(|(p, _)| *p);
+        let points: Vec<SurfacePoint> = points.collect();
         Self {
-            sections: sections.collect(),
+            sections: sampled::kept_rows(&self.sections, &is_there),
             is_kept: vec![[true; 4]; points.len()],
             points,
             ..self.clone()
@@ -209,6 +202,17 @@ impl Geometry {
         match *self {
             Self::Plane { normal, .. } => Some(normal),
             Self::Slot { across, .. } => Some(across),
+            _ => self.axis().map(|(_, axis)| axis),
+        }
+    }
+
+    /// The normal of the planes in which its rows lie, each with the normals of its points.
+    pub(crate) fn across_rows(&self) -> Option<Vec3> {
+        match *self {
+            Self::Plane { normal, along, .. } | Self::Programmed { normal, along, .. } => {
+                Some(normal.cross(&along))
+            }
+            Self::Slot { across, along, .. } => Some(across.cross(&along)),
             _ => self.axis().map(|(_, axis)| axis),
         }
     }

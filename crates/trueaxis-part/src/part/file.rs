@@ -1,5 +1,6 @@
 //! The part file.
 
+mod asked;
 mod characteristics;
 mod mesh;
 mod openings;
@@ -175,9 +176,8 @@ fn sampled(
     };
     let openings = openings.map_or(Some(Vec::new()), |item| read_openings(&item, geometry))?;
     let is_there = |p: &SurfacePoint| !openings.iter().any(|o| o.contains(&p.point_mm));
-    let mut points = sampled.points.iter();
-    sampled.is_kept.retain(|_| points.next().is_some_and(is_there));
-    sampled.points.retain(is_there);
+    let is_there: Vec<bool> = sampled.points.iter().map(is_there).collect();
+    sampled.keep(&is_there);
     if sampled.points.is_empty() {
         let message = format!("nothing remains of `{name}` without its openings");
         section.error("no-points", message, "smaller openings, or a smaller `spacing`");

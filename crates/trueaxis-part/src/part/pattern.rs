@@ -10,11 +10,15 @@ use trueaxis_geometry::Vec3;
 
 /// Twice the largest distance of an axis or a plane of a pattern from its nominal place, where what the datums leave free moves all zones
 /// together to where that is least.
-pub(super) fn position(members: &[&Surface<'_>], frame: &DatumFrame) -> Result<f64, Error> {
+pub(super) fn position(
+    members: &[&Surface<'_>],
+    projected_mm: Option<f64>,
+    frame: &DatumFrame,
+) -> Result<f64, Error> {
     let mut places_mm = Vec::new();
     let mut zones = Vec::new();
     for surface in members {
-        let (zone, found) = surface.zone()?;
+        let (zone, found) = surface.zone(projected_mm)?;
         // Planes have two sides.
         let sides: &[f64] = if matches!(zone, Zone::Plane { .. }) { &[1.0, -1.0] } else { &[1.0] };
         for side in sides {
@@ -56,9 +60,9 @@ impl Zone {
 }
 
 impl Surface<'_> {
-    fn zone(&self) -> Result<(Zone, Vec<Vec3>), Error> {
+    fn zone(&self, projected_mm: Option<f64>) -> Result<(Zone, Vec<Vec3>), Error> {
         if let Some((at_mm, axis)) = self.feature.geometry.axis() {
-            return Ok((Zone::Axis { at_mm, axis }, self.median_line()?));
+            return Ok((Zone::Axis { at_mm, axis }, self.axis_line(projected_mm)?));
         }
         match self.flat() {
             (Geometry::Plane { at_mm, normal, .. }, places) => {

@@ -17,7 +17,7 @@ use trueaxis_geometry::surface::SurfacePoint;
 /// Places of a feature.
 pub(super) struct Surface<'a> {
     pub feature: &'a Feature,
-    deviation_mm: &'a [f64],
+    pub(super) deviation_mm: &'a [f64],
     pub places_mm: Vec<Vec3>,
     /// Its element as a datum, once it was asked for.
     pub datum: OnceCell<Shape>,
@@ -127,7 +127,11 @@ fn value<'p>(
 ) -> Result<f64, Error> {
     if asked.kind == Kind::Position && asked.features.len() > 1 {
         let members: Vec<&Surface<'_>> = asked.features.iter().map(|f| &surfaces[*f]).collect();
-        return pattern::position(&members, &systems.frame(surfaces, &asked.datums)?);
+        return pattern::position(
+            &members,
+            asked.projected_mm,
+            &systems.frame(surfaces, &asked.datums)?,
+        );
     }
     let each = asked.features.iter().map(|f| of_one(asked, &surfaces[*f], surfaces, systems));
     let values = each.collect::<Result<Vec<f64>, _>>()?;
@@ -152,17 +156,24 @@ fn of_one<'p>(
         Kind::Flatness => surface.form(Element::Plane),
         Kind::Cylindricity => surface.form(Element::Cylinder),
         Kind::Straightness => surface.straightness(),
+        Kind::LineStraightness => surface.line_straightness(),
         Kind::Roundness => surface.roundness(),
         Kind::Diameter => surface.diameter(),
         Kind::Width => surface.width(),
         Kind::Profile => surface.profile(&systems.frame(surfaces, &asked.datums)?),
-        Kind::Position => surface.position(&systems.frame(surfaces, &asked.datums)?),
+        Kind::LineProfile => surface.line_profile(&systems.frame(surfaces, &asked.datums)?),
+        Kind::Position => {
+            surface.position(&systems.frame(surfaces, &asked.datums)?, asked.projected_mm)
+        }
         // About an axis the zone may turn, as a pattern does.
-        Kind::Symmetry => pattern::position(&[surface], &systems.frame(surfaces, &asked.datums)?),
-        Kind::Parallelism if is_single => surface.oriented(&datum()?, true),
-        Kind::Perpendicularity if is_single => surface.oriented(&datum()?, false),
+        Kind::Symmetry => {
+            pattern::position(&[surface], None, &systems.frame(surfaces, &asked.datums)?)
+        }
+        Kind::Parallelism | Kind::Perpendicularity if is_single => {
+            surface.oriented(&datum()?, asked)
+        }
         Kind::Parallelism | Kind::Perpendicularity | Kind::Angularity => {
-            surface.oriented_by(&systems.frame(surfaces, &asked.datums)?)
+            surface.oriented_by(&systems.frame(surfaces, &asked.datums)?, asked.projected_mm)
         }
         Kind::Coaxiality => {
             let datum = datum()?;
@@ -186,7 +197,7 @@ pub(super) fn unfit(what: &str) -> Error {
 }
 
 /// One element through places.
-fn element(
+pub(super) fn element(
     element: Element,
     criterion: Criterion,
     places_mm: &[Vec3],
@@ -241,19 +252,13 @@ impl Surface<'_> {
     }
 
     /// The axis, and each section across it in coordinates of its plane.
-    ///
-    /// Material along the normal is more in the plane of the section of a cone: δ / cos α, as in docs/model.md eq. 21.
     fn sections(&self) -> Result<Sections, Error> {
         let Some((_, axis)) = self.feature.geometry.axis() else {
             return Err(unfit("a section of what has no axis"));
         };
         let [x, y] = across(&axis);
-        let flat = |i: usize| {
-            let point = &self.feature.points[i];
-            let out = point.normal - axis * point.normal.dot(&axis);
-            let place = point.point_mm + out * (self.deviation_mm[i] / out.norm_squared());
-            [place.dot(&x), place.dot(&y)]
-        };
+        let places_mm = self.in_rows(&axis);
+        let flat = |i: usize| [places_mm[i].dot(&x), places_mm[i].dot(&y)];
         let sections = self.feature.sections.iter().map(|s| s.clone().map(flat).collect());
         Ok(Sections { axis, across: [x, y], flat_mm: sections.collect() })
     }
@@ -276,6 +281,22 @@ impl Surface<'_> {
             Ok(x * u + y * v + axis * height)
         };
         flat_mm.iter().zip(&self.feature.sections).map(centre).collect()
+    }
+
+    /// What of its axis is to lie in a zone: the median line; of a projected zone both ends of the axis of the minimum zone in it, which
+    /// begins where the feature ends, or, below zero, ends where it begins.
+    pub(super) fn axis_line(&self, projected_mm: Option<f64>) -> Result<Vec<Vec3>, Error> {
+        let Some(projected_mm) = projected_mm else { return self.median_line() };
+        let Geometry::Cylinder { at_mm, axis, length_mm, .. } = self.feature.geometry else {
+            return Err(unfit("the projected zone of what is no cylinder"));
+        };
+        let found = self.element(Element::Cylinder, Criterion::MinimumZone)?.shape;
+        let from_mm = if projected_mm > 0.0 { length_mm } else { 0.0 };
+        let at = |height_mm: f64| {
+            let arm = height_mm - (found.point_mm - at_mm).dot(&axis);
+            found.point_mm + found.direction * (arm / found.direction.dot(&axis))
+        };
+        Ok(vec![at(from_mm), at(from_mm + projected_mm)])
     }
 
     /// Twice the largest distance of the median line from an axis.
@@ -302,9 +323,9 @@ impl Surface<'_> {
     }
 
     /// Twice the largest distance of the median line, of the middle of a slot, of a plane from its nominal place in the frame of the datums.
-    fn position(&self, frame: &DatumFrame) -> Result<f64, Error> {
+    fn position(&self, frame: &DatumFrame, projected_mm: Option<f64>) -> Result<f64, Error> {
         if let Some((at, axis)) = self.feature.geometry.axis() {
-            return Ok(2.0 * farthest(&frame.seen(&self.median_line()?), &at, &axis));
+            return Ok(2.0 * farthest(&frame.seen(&self.axis_line(projected_mm)?), &at, &axis));
         }
         let (plane, places) = self.flat();
         let off = |p: &Vec3| plane.outside(p).map_or(f64::NAN, |(distance, _)| distance.abs());
@@ -312,10 +333,10 @@ impl Surface<'_> {
     }
 
     /// At its angle in the frame of the datums; what they leave free turns the zone to where it is narrowest.
-    fn oriented_by(&self, frame: &DatumFrame) -> Result<f64, Error> {
+    fn oriented_by(&self, frame: &DatumFrame, projected_mm: Option<f64>) -> Result<f64, Error> {
         let geometry = self.feature.geometry;
         if let Some((_, axis)) = geometry.axis() {
-            return narrowest_about(&frame.seen(&self.median_line()?), &axis);
+            return narrowest_about(&frame.seen(&self.axis_line(projected_mm)?), &axis);
         }
         let (plane, places) = self.flat();
         // Shifts change no width.
@@ -326,7 +347,9 @@ impl Surface<'_> {
 
     /// Parallel or perpendicular to a plane or an axis: of a plane the width between two planes, of an axis the diameter of a
     /// cylinder or, where only one direction is fixed, the width between two planes.
-    fn oriented(&self, datum: &Shape, is_parallel: bool) -> Result<f64, Error> {
+    fn oriented(&self, datum: &Shape, asked: &Characteristic) -> Result<f64, Error> {
+        let is_parallel = asked.kind == Kind::Parallelism;
+        let line = || self.axis_line(asked.projected_mm);
         let is_axis = datum.element != Element::Plane;
         let direction = datum.direction;
         let along = |places: &[Vec3]| places.iter().map(|p| p.dot(&direction)).collect::<Vec<_>>();
@@ -335,8 +358,8 @@ impl Surface<'_> {
             None if is_axis != is_parallel => Ok(range(along(&self.flat().1))),
             None => least_range(&self.flat().1, &direction),
             // The axis of the zone is the direction of the datum.
-            Some(_) if is_axis == is_parallel => narrowest_about(&self.median_line()?, &direction),
-            Some(_) => Ok(range(along(&self.median_line()?))),
+            Some(_) if is_axis == is_parallel => narrowest_about(&line()?, &direction),
+            Some(_) => Ok(range(along(&line()?))),
         }
     }
 

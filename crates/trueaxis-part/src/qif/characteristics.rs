@@ -3,7 +3,7 @@
 
 use super::datums::{material, only};
 use super::document::{
-    Reader, Reason, child, content, elements, in_words, listed, name, shown, text_of,
+    Reader, Reason, child, content, direction, elements, in_words, listed, name, shown, text_of,
 };
 use super::features::Form;
 use super::text::millimetres;
@@ -11,6 +11,7 @@ use super::units::{In, Units};
 use crate::part::Kind;
 use roxmltree::Node;
 use std::collections::BTreeMap;
+use trueaxis_geometry::Vec3;
 
 /// Of a definition, what is evaluated or changes nothing.
 const DEFINITION: [&str; 16] = [
@@ -61,6 +62,8 @@ const TOLERANCE: [&str; 7] = [
     // Refused by name.
     "DefinitionId",
 ];
+/// Directions that differ by less are one. Unit: rad.
+const SAME_RAD: f64 = 1e-6;
 /// A diameter of the drawing farther than this share from that of the feature is of another one.
 const OTHER_SIZE: f64 = 0.05;
 
@@ -69,6 +72,8 @@ const OTHER_SIZE: f64 = 0.05;
 pub(super) struct Demand {
     pub kind: Kind,
     zone: Option<Zone>,
+    /// Of a line profile, across the planes of its lines.
+    across: Option<Vec3>,
     pub limits: Limits,
 }
 
@@ -106,6 +111,7 @@ fn kind_of(stem: &str) -> Option<Kind> {
         "Cylindricity" => Kind::Cylindricity,
         "Diameter" => Kind::Diameter,
         "SurfaceProfile" => Kind::Profile,
+        "LineProfile" => Kind::LineProfile,
         "Angularity" => Kind::Angularity,
         "Parallelism" => Kind::Parallelism,
         "Perpendicularity" => Kind::Perpendicularity,
@@ -146,7 +152,21 @@ pub(super) fn read<'d>(
         return Err(Reason::plain(text));
     }
     only(definition, &DEFINITION, "its definition")?;
-    only(nominal, &NOMINAL, "it")?;
+    let across = match kind {
+        Kind::LineProfile => {
+            only(nominal, &[&NOMINAL[..], &["Vector"]].concat(), "it")?;
+            Some(direction(nominal, "Vector")?)
+        }
+        _ => {
+            only(nominal, &NOMINAL, "it")?;
+            None
+        }
+    };
+    let is_profile = matches!(kind, Kind::Profile | Kind::LineProfile);
+    let target_mm = is_profile.then(|| units.length_of(nominal, "TargetValue", In::Drawing));
+    if target_mm.transpose()?.flatten().is_some_and(|mm| mm != 0.0) {
+        return Err(Reason::plain("its profile is meant beside the nominal surface"));
+    }
     let extent = child(definition, "Extent").map(|e| text_of(e, "ExtentEnum"));
     if let Some(extent) = extent.filter(|e| e.as_deref() != Some("UNDEFINED")) {
         let extent = extent.unwrap_or_else(|| "of its own".to_owned());
@@ -161,6 +181,11 @@ pub(super) fn read<'d>(
             other => return Err(Reason::plain(format!("its zone is a {}", in_words(other)))),
         },
     };
+    // Between two lines: the lines of the surface are meant, not the axis.
+    let kind = match zone {
+        Some(Zone::Width) if kind == Kind::Straightness => Kind::LineStraightness,
+        _ => kind,
+    };
     let limits = match kind {
         Kind::Diameter => size(units, nominal, definition)?,
         _ => match units.positive_of(definition, "ToleranceValue", In::Drawing)? {
@@ -168,7 +193,7 @@ pub(super) fn read<'d>(
             None => return Err(Reason::plain("its definition has no tolerance value")),
         },
     };
-    Ok(Demand { kind, zone, limits })
+    Ok(Demand { kind, zone, across, limits })
 }
 
 fn size(units: &Units, nominal: Node<'_, '_>, definition: Node<'_, '_>) -> Result<Limits, Reason> {
@@ -220,7 +245,18 @@ impl Demand {
         if datums.is_empty() && kind.needs_datum() {
             return refuse("it names no datum");
         }
+        if self.across.is_some_and(|across| {
+            of.across_lines().is_none_or(|own| own.cross(&across).norm() > SAME_RAD)
+        }) {
+            return refuse(
+                "its lines are not those around an axis, or along the first edge of a plane",
+            );
+        }
+        if kind == Kind::LineStraightness && !of.has_axis() {
+            return refuse("of a face it does not say which lines are meant");
+        }
         let due = match kind {
+            Kind::LineStraightness => Zone::Width,
             Kind::Straightness | Kind::Coaxiality => Zone::Diameter,
             Kind::Position if of.has_axis() => Zone::Diameter,
             Kind::Position => Zone::Width,
@@ -336,7 +372,6 @@ impl<'d, 't> Items<'d, 't> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trueaxis_geometry::Vec3;
 
     /// By ISO 1101 an axis stands in a cylinder on a plane and along an axis; between planes it lies along a plane and across an axis.
     #[test]
@@ -348,7 +383,7 @@ mod tests {
         let plane = Form::Plane { at_mm, normal, along: None, size_mm: None, openings: Vec::new() };
         let is_read = |kind: Kind, zone: Zone, datums: &[&Form]| {
             let limits = Limits::Zone { tolerance_mm: 0.01 };
-            Demand { kind, zone: Some(zone), limits }.check(&bore, datums).is_ok()
+            Demand { kind, zone: Some(zone), across: None, limits }.check(&bore, datums).is_ok()
         };
         for (kind, datums, due) in [
             (Kind::Perpendicularity, &[&plane][..], Zone::Diameter),

@@ -67,6 +67,15 @@ impl Form {
     pub fn has_axis(&self) -> bool {
         matches!(self, Self::Cylinder { .. } | Self::Cone { .. })
     }
+
+    /// Across the planes of the lines that are checked: those around an axis, those along the first edge of a plane.
+    pub fn across_lines(&self) -> Option<Vec3> {
+        match self {
+            Self::Cylinder { axis, .. } | Self::Cone { axis, .. } => Some(*axis),
+            Self::Plane { normal, along, .. } => Some(normal.as_ref()?.cross(along.as_ref()?)),
+            Self::Sphere { .. } => None,
+        }
+    }
 }
 
 /// The kind of a feature: `Plane` of `PlaneFeatureNominal`.

@@ -64,7 +64,7 @@ repeat = { count = 4, about = "0 0 0 mm", axis = "0 0 1" }
 const TABLE: &str = "x_mm,y_mm,z_mm,nx,ny,nz\n1,2,3,0,0,1\n4,5,6.25,0,0.6,0.8\n";
 
 /// Kind, tolerance, feature, datums.
-const ASKED: [[&str; 4]; 37] = [
+const ASKED: [[&str; 4]; 44] = [
     ["flatness", "10 um", "base", ""],
     ["straightness", "7 um", "shaft", ""],
     ["roundness", "5 um", "taper", ""],
@@ -102,6 +102,13 @@ const ASKED: [[&str; 4]; 37] = [
     ["coaxiality", "25 um", "journal", "D-collar"],
     ["position", "26 um", "bore", "A|D-collar|B"],
     ["perpendicularity", "27 um", "shoulder", "collar-D"],
+    ["line_straightness", "28 um", "shaft", ""],
+    ["line_straightness", "29 um", "base", ""],
+    ["line_profile", "30 um", "taper", "A"],
+    ["line_profile", "31 um", "front", ""],
+    ["position", "32 um, 25 mm", "bore", "A|B|C"],
+    ["position", "33 um, -12.5 mm", "bore", ""],
+    ["perpendicularity", "34 um, 25 mm", "bolts", "A"],
 ];
 
 pub fn part(text: &str) -> Part {
@@ -119,12 +126,16 @@ pub fn housing() -> Part {
 pub fn every() -> Part {
     let mut text = SHAPES.to_owned();
     for (number, [kind, tolerance, of, datum]) in ASKED.iter().enumerate() {
+        let (tolerance, projected) = tolerance.split_once(", ").unwrap_or((tolerance, ""));
         let limits = match tolerance.split_once('|') {
             Some((low, high)) => format!("[\"{low}\", \"{high}\"]"),
             None => format!("\"{tolerance}\""),
         };
         text += &format!("[[characteristic]]\nname = \"no {number}\"\n{kind} = {limits}\n");
         text += &format!("of = \"{of}\"\n");
+        if !projected.is_empty() {
+            text += &format!("projected = \"{projected}\"\n");
+        }
         if !datum.is_empty() {
             text += &format!("datum = \"{datum}\"\n");
         }

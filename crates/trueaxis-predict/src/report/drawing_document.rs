@@ -59,6 +59,9 @@ pub struct CharacteristicEntry<'a> {
     pub features: Vec<&'a str>,
     /// To which features, the first datum first; empty: to the zero that was set.
     pub datums: Vec<String>,
+    /// How far its zone reaches beyond the end of the axis, below 0 beyond its beginning; absent without a projected zone, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub projected_mm: Option<f64>,
     /// Its value; of a size the deviation from the nominal one, mm.
     pub value_mm: f64,
     /// Standard uncertainty of that, by the stated uncertainties of the machine, mm.
@@ -254,6 +257,7 @@ impl<'a> CharacteristicEntry<'a> {
             feature: &asked.of,
             features: asked.features.iter().map(|f| features[*f].name.as_str()).collect(),
             datums: asked.datums.iter().map(|d| d.name(features)).collect(),
+            projected_mm: asked.projected_mm,
             value_mm: value.value_mm,
             u_mm: value.u_mm,
             points_mm: value.points_mm,

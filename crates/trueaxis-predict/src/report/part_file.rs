@@ -47,6 +47,9 @@ pub struct PartCharacteristicEntry<'a> {
     pub feature: &'a str,
     /// To which features, the first datum first.
     pub datums: Vec<String>,
+    /// How far its zone reaches beyond the end of the axis, below 0 beyond its beginning; absent without a projected zone, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub projected_mm: Option<f64>,
     /// The least value allowed; null for a zone, mm.
     pub low_mm: Option<f64>,
     /// The largest value allowed, mm.
@@ -97,6 +100,7 @@ impl<'a> PartFileDocument<'a> {
                 kind: c.kind.key(),
                 feature: &c.of,
                 datums: c.datums.iter().map(|d| d.name(&part.features)).collect(),
+                projected_mm: c.projected_mm,
                 low_mm,
                 high_mm,
             }

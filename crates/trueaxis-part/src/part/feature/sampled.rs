@@ -1,6 +1,6 @@
 //! Points of a nominal surface, row by row.
 
-use super::{Geometry, MOST_POINTS, across};
+use super::{Feature, Geometry, MOST_POINTS, across};
 use std::f64::consts::TAU;
 use std::ops::Range;
 use trueaxis_geometry::Vec3;
@@ -55,7 +55,7 @@ pub struct Sampled {
     pub points: Vec<SurfacePoint>,
     /// Which remain with every second row, with the other rows, with every second point of each row, and with the others.
     pub is_kept: Vec<[bool; 4]>,
-    /// Which points make a section across the axis.
+    /// Which points make a row, of what has an axis a section across it.
     pub sections: Vec<Range<usize>>,
 }
 
@@ -65,10 +65,42 @@ impl Sampled {
         let is_kept = every_second(points.len());
         Self { points, is_kept, sections: Vec::new() }
     }
+
+    /// Without the points that are not there.
+    pub fn keep(&mut self, is_there: &[bool]) {
+        self.sections = kept_rows(&self.sections, is_there);
+        retain(&mut self.points, is_there);
+        retain(&mut self.is_kept, is_there);
+    }
+}
+
+impl Feature {
+    /// Without the points that are not there; halves of its points are those of a table then.
+    pub fn keep(&mut self, is_there: &[bool]) {
+        self.sections = kept_rows(&self.sections, is_there);
+        retain(&mut self.points, is_there);
+        self.is_kept = every_second(self.points.len());
+    }
+}
+
+fn retain<T>(items: &mut Vec<T>, is_there: &[bool]) {
+    let mut each = is_there.iter();
+    items.retain(|_| each.next().is_some_and(|is| *is));
+}
+
+/// Rows of points of which some are not there; none is empty.
+pub(super) fn kept_rows(rows: &[Range<usize>], is_there: &[bool]) -> Vec<Range<usize>> {
+    let mut from = 0;
+    let row = |range: &Range<usize>| {
+        let count = is_there[range.clone()].iter().filter(|is| **is).count();
+        from += count;
+        from - count..from
+    };
+    rows.iter().map(row).filter(|row| !row.is_empty()).collect()
 }
 
 impl Geometry {
-    /// Points, and which of them make a section; they reach to 0.25 mm from the edges, however many there are.
+    /// Points, and which of them make a row; they reach to 0.25 mm from the edges, however many there are.
     ///
     /// # Errors
     /// In words: too many points.
@@ -95,9 +127,6 @@ impl Geometry {
             let points = (0..row.count).map(|k| alternate(k, row.count));
             sampled.is_kept.extend(points.map(|[a, b]| [rows[0], rows[1], a, b]));
             sampled.sections.push(from..sampled.points.len());
-        }
-        if self.axis().is_none() {
-            sampled.sections.clear();
         }
         Ok(sampled)
     }
@@ -167,7 +196,7 @@ fn alternate(step: usize, count: usize) -> [bool; 2] {
 }
 
 /// The same for points without rows.
-pub fn every_second(count: usize) -> Vec<[bool; 4]> {
+fn every_second(count: usize) -> Vec<[bool; 4]> {
     let of = |i| {
         let [one, other] = alternate(i, count);
         [one, other, one, other]

@@ -72,12 +72,13 @@ fn status(outcome: Outcome) -> &'static str {
 fn stem(kind: Kind) -> &'static str {
     match kind {
         Kind::Flatness => "Flatness",
-        Kind::Straightness => "Straightness",
+        Kind::Straightness | Kind::LineStraightness => "Straightness",
         Kind::Roundness => "Circularity",
         Kind::Cylindricity => "Cylindricity",
         Kind::Diameter => "Diameter",
         Kind::Width => "Width",
         Kind::Profile => "SurfaceProfile",
+        Kind::LineProfile => "LineProfile",
         Kind::Angularity => "Angularity",
         Kind::Parallelism => "Parallelism",
         Kind::Perpendicularity => "Perpendicularity",
@@ -108,8 +109,16 @@ fn definition(xml: &mut Xml, part: &Part, asked: &Characteristic, index: usize, 
     let id = ids.characteristic(index, Of::Definition).to_string();
     let (kind, is_pattern) = (asked.kind, asked.features.len() > 1);
     xml.open(&format!("{}CharacteristicDefinition", stem(kind)), &[("id", &id)]);
-    if kind.is_located() && asked.datums.is_empty() {
-        xml.leaf("Description", &[], "counts from the zero that was set");
+    let from_zero = (kind.is_located() && asked.datums.is_empty())
+        .then_some("counts from the zero that was set");
+    // QIF has a length for it, and no side.
+    let side = asked.projected_mm.map(|mm| match mm > 0.0 {
+        true => "its zone is projected beyond the end of the axis",
+        false => "its zone is projected beyond the beginning of the axis",
+    });
+    let said: Vec<&str> = from_zero.into_iter().chain(side).collect();
+    if !said.is_empty() {
+        xml.leaf("Description", &[], &said.join("; "));
     }
     match is_pattern {
         // ISO 5458: all zones move together.
@@ -142,6 +151,9 @@ fn definition(xml: &mut Xml, part: &Part, asked: &Characteristic, index: usize, 
         xml.leaf(shape, &[], "");
         xml.close();
     }
+    if let Some(projected_mm) = asked.projected_mm {
+        xml.decimal("ProjectedToleranceZoneValue", projected_mm.abs());
+    }
     xml.close();
 }
 
@@ -159,7 +171,7 @@ fn zone(part: &Part, asked: &Characteristic) -> Option<&'static str> {
     match asked.kind {
         Kind::Straightness | Kind::Coaxiality => Some("DiametricalZone"),
         Kind::Position if is_axis => Some("DiametricalZone"),
-        Kind::Position => Some("NonDiametricalZone"),
+        Kind::Position | Kind::LineStraightness => Some("NonDiametricalZone"),
         _ if !asked.kind.is_oriented() => None,
         _ if is_axis && !is_across => Some("DiametricalZone"),
         _ => Some("PlanarZone"),
@@ -174,6 +186,13 @@ fn nominal(xml: &mut Xml, part: &Part, asked: &Characteristic, index: usize, ids
     xml.leaf("Name", &[], &asked.name);
     if let Some(size_mm) = size_mm(part, asked) {
         xml.decimal("TargetValue", size_mm);
+    }
+    let first = asked.features.first().map(|index| part.features[*index].geometry);
+    if let Some(across) =
+        first.and_then(|g| g.across_rows()).filter(|_| asked.kind == Kind::LineProfile)
+    {
+        // Across the plane in which its lines lie.
+        xml.vector("Vector", &across);
     }
     xml.close();
 }

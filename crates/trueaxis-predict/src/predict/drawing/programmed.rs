@@ -4,7 +4,7 @@ use super::{PartStudy, nails_of};
 use trueaxis_cut::{Cut, Nail, Reach, Sweep, cut};
 use trueaxis_geometry::surface::SurfacePoint;
 use trueaxis_input::{Diagnostics, Place};
-use trueaxis_part::part::{Feature, Geometry, Part, every_second};
+use trueaxis_part::part::{Feature, Geometry, Part};
 
 /// A surface seen at a flatter angle than this gives no point. Unit: 1.
 const FLATTEST_COS: f64 = 0.1;
@@ -35,13 +35,14 @@ pub(super) fn completed(
         };
         let nails: Vec<Nail> = feature.points.iter().map(nail).collect();
         let reaches = cut(nominal, &nails);
-        let points = nails.iter().zip(&reaches).filter_map(|(nail, reach)| match reach {
+        let point = |(nail, reach): (&Nail, &Reach)| match reach {
             Reach::Cut(cut) => surface_point(nail, cut),
             Reach::Deeper(_) | Reach::NotCut => None,
-        });
-        feature.points = points.collect();
+        };
+        let points: Vec<Option<SurfacePoint>> = nails.iter().zip(&reaches).map(point).collect();
+        feature.keep(&points.iter().map(Option::is_some).collect::<Vec<_>>());
+        feature.points = points.into_iter().flatten().collect();
         *known = Some(keep_smooth(feature, nominal));
-        feature.is_kept = every_second(feature.points.len());
         let (count, name) = (feature.points.len(), &feature.name);
         let place = Place::whole(&study.part_file);
         if count == 0 {
@@ -74,7 +75,6 @@ fn keep_smooth(feature: &mut Feature, nominal: &[Sweep]) -> Vec<Reach> {
     let ends = cut(nominal, &nails_of(feature));
     let is_smooth =
         |reach: &Reach| matches!(reach, Reach::Cut(cut) if cut.deviation_mm.abs() < SAME_MM);
-    let mut each = ends.iter();
-    feature.points.retain(|_| each.next().is_some_and(is_smooth));
+    feature.keep(&ends.iter().map(is_smooth).collect::<Vec<_>>());
     ends.into_iter().filter(is_smooth).collect()
 }
