@@ -2797,6 +2797,10 @@ export interface ProvedEntry {
    * The test piece; null if none was asked for.
    */
   test_piece: PieceEntry | null;
+  /**
+   * The part by its drawing; absent if none was asked for.
+   */
+  part?: PartWithTablesEntry | null;
 }
 /**
  * A test piece cut with the tables.
@@ -2827,6 +2831,64 @@ export interface PieceIndex {
    * With the tables, µm.
    */
   left_um: number;
+}
+/**
+ * A part by its drawing, before and with the tables. Outcomes are `pass`, `fail` or `undecided`.
+ */
+export interface PartWithTablesEntry {
+  /**
+   * The study.
+   */
+  study: string;
+  /**
+   * Without tables.
+   */
+  outcome: string;
+  /**
+   * With them, the zero where it was set without them.
+   */
+  zero_kept_outcome: string;
+  /**
+   * With them, the zero set again.
+   */
+  zero_set_outcome: string;
+  /**
+   * The lines of the drawing.
+   */
+  characteristics: CharacteristicWithTables[];
+}
+/**
+ * A characteristic before and with the tables.
+ */
+export interface CharacteristicWithTables {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * Without tables, µm.
+   */
+  before_um: number;
+  /**
+   * With them, the zero where it was set without them, µm.
+   */
+  zero_kept_um: number;
+  /**
+   * With them, the zero set again, µm.
+   */
+  zero_set_um: number;
+  /**
+   * Without tables.
+   */
+  outcome: string;
+  /**
+   * With them, the zero kept.
+   */
+  zero_kept_outcome: string;
+  /**
+   * With them, the zero set again.
+   */
+  zero_set_outcome: string;
 }
 /**
  * Values that the control has to add to its commands: `trueaxis/compensate/1`.
@@ -11487,9 +11549,13 @@ export interface ServePoseDeviationEntry {
  */
 export interface ServePredictRequest {
   /**
-   * The study file: a test piece or holes.
+   * The study file: a test piece, holes or a part.
    */
   study: string;
+  /**
+   * Of a part, whether it is judged by its program compensated for the machine, too; no, if left out.
+   */
+  compensated?: boolean | null;
 }
 /**
  * The prediction of a test piece. Arrays: for each point of all sections `azimuth_rad` (f32), `error_um` (f32:

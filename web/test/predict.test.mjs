@@ -327,5 +327,22 @@ test("a part by its drawing: characteristics, errors and surfaces", async () => 
   for (const name of expected.sufficient) assert.match(correction, new RegExp(`of ${name} alone`));
   assert.equal(/^No single/.test(correction), expected.sufficient.length === 0);
   await picture(page, "predict-drawing");
+  // The same by the compensated program, and back.
+  const after = await cli("predict", DRAWING, "--compensated", "--no-report");
+  await page.click(`${shown} [data-test=compensate]`);
+  await page.waitForSelector(`${shown} [data-test=compensated]`);
+  assert.equal(
+    await page.textContent(`${shown} [data-test=compensated]`),
+    `by the compensated program: ${after.compensated_outcome} with the zero kept, ${after.compensated_zero_set_outcome} with it set again`,
+  );
+  for (const value of after.characteristics) {
+    const row = page.locator(`${shown} tr[data-set="${value.name}"]`);
+    assert.equal(await row.locator("[data-cell=value]").textContent(), two(value.value_mm));
+    assert.equal(await row.locator("[data-cell=kept]").textContent(), two(value.compensated.value_mm));
+    assert.equal(await row.locator("[data-cell=set]").textContent(), two(value.compensated_zero_set.value_mm));
+  }
+  await picture(page, "predict-drawing-compensated");
+  await page.click(`${shown} [data-test=compensate]`);
+  await page.waitForSelector(`${shown} [data-test=compensated]`, { state: "detached" });
   assert.deepEqual(complaints, []);
 });

@@ -3,6 +3,7 @@
 mod command;
 
 use command::{Folder, trueaxis};
+use serde_json::Value;
 
 const GANTRY: &str = "machines/gantry-001/machine.toml";
 const MILL: &str = "machines/three-axis-mill/machine.toml";
@@ -254,6 +255,40 @@ fn tables_and_a_test_piece() {
     let indices = found["left_um"]["test_piece"]["indices"].as_array().expect("indices").clone();
     assert!(indices.len() >= 11);
     assert!(indices.iter().all(|i| i["left_um"] != i["before_um"]));
+}
+
+/// The part of a study is cut with the tables: before as `predict` says, after nearer to the drawing, and a study of another machine is refused.
+#[test]
+fn tables_and_a_part_by_its_drawing() {
+    let folder = Folder::new("compensate-tables-part");
+    let study = "examples/03_predict/housing.toml";
+    let predicted = trueaxis(&["predict", study, "--samples", "0", "--format", "json"]).json();
+    let machine = "machines/xkas2525/machine.toml";
+    for target in ["csv", "sinumerik"] {
+        let out = folder.path(target);
+        let arguments = ["compensate", "tables", machine, "--target", target, "-o", &out];
+        let ran = trueaxis(&[&arguments[..], &["--piece", study, "--format", "json"]].concat());
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        let found = ran.json();
+        let part = &found["left_um"]["part"];
+        assert_eq!(part["outcome"], predicted["outcome"]);
+        let lines = part["characteristics"].as_array().expect("characteristics").clone();
+        let number = |of: &Value, key: &str| of[key].as_f64().expect(key);
+        let (mut before_um, mut after_um) = (0.0, 0.0);
+        for (line, due) in lines.iter().zip(predicted["characteristics"].as_array().unwrap()) {
+            assert_eq!(line["name"], due["name"]);
+            assert!((number(line, "before_um") - 1e3 * number(due, "value_mm")).abs() < 1e-9);
+            before_um += number(line, "before_um").abs();
+            after_um += number(line, "zero_set_um").abs();
+        }
+        assert!(after_um < 0.6 * before_um, "{target}: {before_um} {after_um}");
+    }
+    let out = folder.path("other");
+    let mill = "machines/three-axis-mill/machine.toml";
+    let arguments = ["compensate", "tables", mill, "--target", "csv", "-o", &out];
+    let ran = trueaxis(&[&arguments[..], &["--piece", study]].concat());
+    assert_eq!(ran.status, 2);
+    assert!(ran.err.contains("another-machine"), "{}", ran.err);
 }
 
 /// What the control compensates already is left to it: by tables and by programs.

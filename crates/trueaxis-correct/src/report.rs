@@ -17,7 +17,7 @@ pub use compensation::{compensation_csv, compensation_report, compensation_warni
 pub use compensation_document::{CompensationDocument, compensation_json};
 pub use program::{ProgramReport, program_report};
 pub use program_document::ProgramDocument;
-pub use tables::{TablesReport, tables_report};
+pub use tables::{PartWithTables, TablesReport, tables_report};
 pub use tables_document::TablesDocument;
 
 use trueaxis_report::{NamedSchema, named_schema};

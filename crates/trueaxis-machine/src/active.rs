@@ -1,7 +1,7 @@
 //! Errors that are already compensated in the control.
 
 use crate::Machine;
-use crate::errors::ErrorName;
+use crate::errors::{Curve, ErrorName, StatedError};
 use trueaxis_input::Section;
 
 /// `[compensation] active = ["EXX", "EYY"]`: tables that are switched on in the control.
@@ -49,5 +49,31 @@ impl Machine {
         let stated = self.stated_errors();
         let compensated = stated.into_iter().filter(|(_, name)| active(name));
         compensated.fold(self.clone(), |machine, (index, _)| machine.with_error(index, None))
+    }
+
+    /// The machine as it runs: the errors that the control compensates are zero, and as uncertain as before.
+    ///
+    /// ```
+    /// use trueaxis_machine::{Machine, file::NoTables};
+    /// let text = "[machine]\nname = \"mill\"\nchain = \"w b X Y Z t\"\n\
+    ///             [location]\nEC0Y = \"10 ± 2 urad\"\n\
+    ///             [compensation]\nactive = [\"EC0Y\"]";
+    /// let machine = Machine::check("mill.toml", text, &NoTables).0.expect("a machine").as_running();
+    /// let mut command = trueaxis_machine::axis::Command::default();
+    /// command[1] = 100.0;
+    /// let errors = machine.errors_at(&command, &Default::default())?;
+    /// assert_eq!(machine.deviation(&command, &errors).tip_mm.norm(), 0.0);
+    /// assert_eq!(machine.uncertain_quantities().len(), 1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn as_running(&self) -> Self {
+        let is_active = |name: &ErrorName| self.active.contains(name);
+        let stated = self.stated_errors().into_iter().filter(|(_, name)| is_active(name));
+        stated.fold(self.clone(), |machine, (index, _)| {
+            let error = self.bodies()[index.body].stated(index.kind, index.component).cloned();
+            let zero = |e| StatedError { mean: Curve::Constant(0.0), reversal: None, ..e };
+            machine.with_error(index, error.map(zero))
+        })
     }
 }

@@ -17,6 +17,7 @@ mod judge;
 pub mod location;
 mod monte_carlo;
 mod program;
+mod running;
 mod sensitivity;
 mod servo;
 mod set_up;

@@ -11,7 +11,7 @@ mod prediction;
 mod prediction_document;
 mod prediction_pictures;
 
-pub use drawing::drawing_report;
+pub use drawing::{compensated_table, drawing_report};
 pub use drawing_document::DrawingDocument;
 pub use holes::holes_report;
 pub use holes_document::HolesDocument;

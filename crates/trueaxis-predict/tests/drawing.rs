@@ -2,9 +2,11 @@
 
 use std::path::{Path, PathBuf};
 use trueaxis_input::{Diagnostics, Files, Source};
+use trueaxis_machine::Machine;
 use trueaxis_nc::Program;
 use trueaxis_predict::predict::drawing::{
-    PartPrediction, PartStudy, cut_with, predict_compensated, predict_part, read_part_study,
+    Deviations, Otherwise, PartPrediction, PartStudy, cut_with, predict_compensated,
+    predict_otherwise, predict_part, read_part_study,
 };
 
 const STUDY: &str = "name = \"s\"\nmachine = \"m.toml\"\npart = \"p.toml\"\nprogram = \"p.nc\"\n";
@@ -689,4 +691,59 @@ fn law_drills_and_tapers_leave_their_shapes() {
             words(&problems)
         );
     }
+}
+
+/// A machine with its own errors, or with none of them.
+struct Own(bool);
+
+impl Otherwise for Own {
+    fn deviations<'m>(&'m self, machine: &'m Machine) -> Deviations<'m> {
+        Box::new(|command, approach| {
+            let errors = machine.errors_at(command, approach).ok()?;
+            let there = machine.deviation(command, &errors);
+            Some(if self.0 { [there.tip_mm, there.axis] } else { Default::default() })
+        })
+    }
+}
+
+/// A control that adds nothing leaves the part as it is. One that removes every error leaves that of the program alone where the zero is set again;
+/// where it is kept, the error that the tip had there stays in all places: 100 µrad of squareness, 200 mm along Y, 20 µm, twice that of position.
+#[test]
+fn law_a_control_that_removes_all_and_one_that_removes_nothing() {
+    let machine = mill("EC0Y = \"100 urad\"");
+    let study = study(&[("m.toml", &machine)]).unwrap_or_else(|p| panic!("{:?}", words(&p)));
+    let mut problems = Diagnostics::new();
+    let before = predict_part(&study, &|_| {}, &mut problems).expect("a prediction");
+    let nothing = predict_otherwise(&study, &before, &Own(true), &mut problems).expect("a part");
+    assert_eq!(nothing.zero_kept.values_mm, values(&before));
+    assert_eq!(nothing.zero_set.values_mm, values(&before));
+    let all = predict_otherwise(&study, &before, &Own(false), &mut problems).expect("a part");
+    assert_eq!(all.zero_set.values_mm, values(&predicted(&[])));
+    let bore = all.zero_kept.values_mm[3];
+    assert!((bore - 40e-3).abs() < 0.2e-3, "{bore}");
+    assert!((all.zero_kept.values_mm[2] - all.zero_set.values_mm[2]).abs() < 1e-9);
+}
+
+/// Errors that the control compensates by its own tables are none of the part, and as uncertain as before; a note says which.
+#[test]
+fn law_active_tables_leave_the_uncertainty() {
+    let text = "EC0Y = \"100 ± 5 urad\"\nEX0Y = \"3 ± 1 um\"";
+    let (open, running) = (mill(text), mill(text) + "[compensation]\nactive = [\"EC0Y\"]\n");
+    let found = predicted(&[("m.toml", &running)]);
+    let without = predicted(&[("m.toml", &mill("EC0Y = \"0 ± 5 urad\"\nEX0Y = \"3 ± 1 um\""))]);
+    assert_eq!(values(&found), values(&without));
+    let u = |p: &PartPrediction| p.values.iter().map(|v| v.u_mm).collect::<Vec<f64>>();
+    assert_eq!(u(&found), u(&without));
+    let lean = |p: &PartPrediction| p.values[2].value_mm;
+    assert!(lean(&found) < 0.1e-3 && lean(&predicted(&[("m.toml", &open)])) > 6e-3);
+    let all = [
+        ("s.toml", STUDY.to_owned()),
+        ("m.toml", running),
+        ("p.toml", PART.to_owned()),
+        ("p.nc", PROGRAM.to_owned()),
+        ("p.setup.toml", SET_UP.to_owned()),
+    ];
+    let (_, problems) = read_part_study(&files(&all), Path::new("s.toml"));
+    let note = problems.iter().find(|p| p.code == "already-active").expect("a note");
+    assert!(note.message.contains("EC0Y") && !note.message.contains("EX0Y"), "{}", note.message);
 }

@@ -48,6 +48,8 @@ class PredictTab implements TabHandle {
   private holes: Holes | null = null;
   private drawing: Drawing | null = null;
   private study: string | null = null;
+  /** Whether a part is judged by its program compensated for the machine, too. */
+  private compensated = false;
   private stop = new AbortController();
   /** The prediction of the file; what is shown may be changed. */
   private base: PieceFrame | null = null;
@@ -76,7 +78,10 @@ class PredictTab implements TabHandle {
       );
       return;
     }
-    if (wanted !== this.study) void this.load(wanted);
+    const compensated = params.compensated === "true";
+    if (wanted === this.study && compensated === this.compensated) return;
+    this.compensated = compensated;
+    void this.load(wanted);
   }
 
   /** That of the first example, where there are examples. */
@@ -100,8 +105,9 @@ class PredictTab implements TabHandle {
     this.study = study;
     const progress = this.app.progress(`predicting ${study}`);
     try {
+      const asked = this.compensated ? { study, compensated: true } : { study };
       const options = { onProgress: progress.report, signal: stop.signal };
-      const frame = (await this.app.api.ask("predict", { study }, options)) as unknown as Answer;
+      const frame = (await this.app.api.ask("predict", asked, options)) as unknown as Answer;
       progress.done();
       this.empty.hidden = true;
       this.holes_page.hidden = frame.header.kind !== "holes";
@@ -130,6 +136,9 @@ class PredictTab implements TabHandle {
       refusal.hint ? h("p", { class: "hint" }, refusal.hint) : null,
       diagnosticList(refusal.diagnostics),
       h("button", { onclick: () => void this.load(study) }, "Try again"),
+      this.compensated
+        ? h("button", { onclick: () => this.app.go("predict", { study }) }, "Without the compensated program")
+        : null,
     );
   }
 

@@ -16,6 +16,7 @@ Examples:
   trueaxis compensate tables machines/three-axis-mill/machine.toml --target linuxcnc -o mill-comp
   trueaxis compensate tables machines/xkas2525/machine.toml --target sinumerik -o xkas-comp \\
       --piece examples/03_predict/nas979-on-xkas2525.toml --format json
+  trueaxis compensate tables machines/xkas2525/machine.toml --target isg -o xkas-isg --piece examples/03_predict/housing.toml
 
 Each table holds what the control has to add; it is made with the other axes at a reference (--at). Rotary
 centres and tilts, grids and errors of whole links go where the control has a place for them. The files
@@ -57,7 +58,7 @@ pub struct TablesArguments {
     /// Of linuxcnc: 0 for actual positions (default), 1 for trims
     #[arg(long, value_enum)]
     comp_file_type: Option<CompFileType>,
-    /// A study of `predict`: its test piece is cut with the tables
+    /// A study of `predict`: its test piece, or its part by its drawing, is cut with the tables, too
     #[arg(long, value_name = "STUDY.toml")]
     piece: Option<PathBuf>,
     /// For the machine alone, without a part, though the workpiece grows and its temperature is not given

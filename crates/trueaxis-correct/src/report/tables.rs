@@ -9,6 +9,8 @@ use crate::compensate::tables::{Compiled, LeftOut, Made, What, known, shown};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::describe::to_shown;
+use trueaxis_predict::predict::drawing::{CompensatedPart, PartPrediction, PartStudy};
+use trueaxis_predict::report::compensated_table;
 use trueaxis_report::numbers::fixed;
 use trueaxis_report::{Report, Section, Table};
 
@@ -24,8 +26,20 @@ pub struct TablesReport<'a> {
     pub files: &'a [String],
     /// Study and indices of the test piece.
     pub piece: Option<(&'a str, &'a [IndexLeft])>,
+    /// The part of a study as it is and with the tables.
+    pub part: Option<&'a PartWithTables>,
     /// What tables of the machine alone can cost, where the temperature of the workpiece is not known.
     pub machine_only: Option<&'a str>,
+}
+
+/// A part cut with the tables, and before.
+pub struct PartWithTables {
+    /// The study.
+    pub study: PartStudy,
+    /// Without tables.
+    pub before: PartPrediction,
+    /// With them.
+    pub after: CompensatedPart,
 }
 
 /// More errors than this tell a reader nothing new.
@@ -49,6 +63,7 @@ pub fn tables_report<'a>(report: &TablesReport<'_>) -> Report<'a> {
         .section(left(report))
         .sections(errors(&compiled.errors))
         .sections(report.piece.map(|(study, indices)| piece(study, indices)))
+        .sections(report.part.map(part))
         .section(Section::new("Notes").list(compiled.advice.iter().map(ToString::to_string)))
         .section(Section::new("Files").list(report.files.iter().cloned()))
 }
@@ -88,6 +103,19 @@ fn piece<'a>(study: &str, indices: &[IndexLeft]) -> Section<'a> {
     });
     let headings = ["", "without tables, µm", "with tables, µm", ""];
     Section::new(format!("Test piece {study}")).table(Table::new(headings).rows(rows))
+}
+
+fn part<'a>(PartWithTables { study, before, after }: &PartWithTables) -> Section<'a> {
+    let sentence = format!(
+        "{} before; with the tables {} where the zero is kept, {} where it is set again.",
+        before.outcome.word(),
+        after.zero_kept.outcome.word(),
+        after.zero_set.outcome.word()
+    );
+    let note = "Cut on the same machine with the same u. Zero kept: where it was set without the tables, so that what counts from it keeps \
+                the error of the tip there. Zero set again: with the tables in force.";
+    let table = compensated_table(study, before, after).note(note);
+    Section::new(format!("Part {}", study.path.display())).paragraph(sentence).table(table)
 }
 
 /// The errors that the control's chain knows, and its grid.

@@ -1,6 +1,6 @@
 //! The document of compensation tables.
 
-use super::tables::{TablesReport, joints_of, round};
+use super::tables::{PartWithTables, TablesReport, joints_of, round};
 use crate::compensate::tables::content::Line;
 use crate::compensate::tables::grid::{Gridded, Side};
 use crate::compensate::tables::joints::Joint;
@@ -230,6 +230,43 @@ pub struct ProvedEntry<'a> {
     pub residual: ResidualEntry,
     /// The test piece; null if none was asked for.
     pub test_piece: Option<PieceEntry<'a>>,
+    /// The part by its drawing; absent if none was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub part: Option<PartWithTablesEntry<'a>>,
+}
+
+/// A part by its drawing, before and with the tables. Outcomes are `pass`, `fail` or `undecided`.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct PartWithTablesEntry<'a> {
+    /// The study.
+    pub study: String,
+    /// Without tables.
+    pub outcome: &'static str,
+    /// With them, the zero where it was set without them.
+    pub zero_kept_outcome: &'static str,
+    /// With them, the zero set again.
+    pub zero_set_outcome: &'static str,
+    /// The lines of the drawing.
+    pub characteristics: Vec<CharacteristicWithTables<'a>>,
+}
+
+/// A characteristic before and with the tables.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct CharacteristicWithTables<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Without tables, µm.
+    pub before_um: f64,
+    /// With them, the zero where it was set without them, µm.
+    pub zero_kept_um: f64,
+    /// With them, the zero set again, µm.
+    pub zero_set_um: f64,
+    /// Without tables.
+    pub outcome: &'static str,
+    /// With them, the zero kept.
+    pub zero_kept_outcome: &'static str,
+    /// With them, the zero set again.
+    pub zero_set_outcome: &'static str,
 }
 
 /// A test piece cut with the tables.
@@ -277,6 +314,7 @@ impl<'a> TablesDocument<'a> {
             left_um: ProvedEntry {
                 residual: ResidualEntry::of(machine, &compiled.after),
                 test_piece: report.piece.map(PieceEntry::from),
+                part: report.part.map(PartWithTablesEntry::from),
             },
             left_zero_set_um: ResidualEntry::of(machine, &compiled.after_zero_set),
             wrong_sign_um: ResidualEntry::of(machine, &compiled.wrong_sign),
@@ -440,5 +478,28 @@ impl<'a> From<(&'a str, &'a [IndexLeft])> for PieceEntry<'a> {
             left_um: i.left_mm * 1e3,
         };
         Self { study, indices: indices.iter().map(index).collect() }
+    }
+}
+
+impl<'a> From<&'a PartWithTables> for PartWithTablesEntry<'a> {
+    fn from(PartWithTables { study, before, after }: &'a PartWithTables) -> Self {
+        let (kept, set) = (&after.zero_kept, &after.zero_set);
+        let all = study.part.characteristics.iter().zip(&before.values).enumerate();
+        let characteristics = all.map(|(i, (asked, value))| CharacteristicWithTables {
+            name: &asked.name,
+            before_um: value.value_mm * 1e3,
+            zero_kept_um: kept.values_mm[i] * 1e3,
+            zero_set_um: set.values_mm[i] * 1e3,
+            outcome: value.outcome.word(),
+            zero_kept_outcome: kept.outcomes[i].word(),
+            zero_set_outcome: set.outcomes[i].word(),
+        });
+        Self {
+            study: study.path.display().to_string(),
+            outcome: before.outcome.word(),
+            zero_kept_outcome: kept.outcome.word(),
+            zero_set_outcome: set.outcome.word(),
+            characteristics: characteristics.collect(),
+        }
     }
 }

@@ -18,7 +18,9 @@ mod programmed;
 mod study;
 
 pub use budget::{ErrorEffect, PointEffect, effects};
-pub use compensated::{Compensated, CompensatedPart, predict_compensated};
+pub use compensated::{
+    Compensated, CompensatedPart, Deviations, Otherwise, predict_compensated, predict_otherwise,
+};
 pub use many::{Drawn, ManyParts, cut_with};
 pub use measured::Measured;
 pub use path::{CutPath, Origin};

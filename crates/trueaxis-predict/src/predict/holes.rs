@@ -6,6 +6,7 @@
 use super::Error;
 use super::acted::{ActedRecord, ActedRow, SAME_PLACE_MM, machine_then, moved};
 use super::location::LocationCircle;
+use super::running::running_machine;
 use super::temperatures::{CuttingClock, RunningTemperatures, StudyTemperatures};
 use std::path::Path;
 use trueaxis_geometry::Vec3;
@@ -13,7 +14,7 @@ use trueaxis_geometry::frame::{Direction, Point};
 use trueaxis_input::{Diagnostics, Dimension, Files, Place, Section, SourceText};
 use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::errors::ErrorValues;
-use trueaxis_machine::file::{machine_of, read_vector_mm};
+use trueaxis_machine::file::read_vector_mm;
 use trueaxis_machine::{Machine, Target};
 
 /// More holes than this are a slip of the pen.
@@ -180,7 +181,7 @@ pub fn parse_hole_study(
 
 fn read(root: &Section<'_>, path: &Path) -> Option<HoleStudy> {
     let name = root.require("name", "give the study a name").and_then(|i| i.text());
-    let machine = machine_of(root, path).map(|(_, machine)| machine);
+    let machine = running_machine(root, path).map(|(_, machine)| machine);
     let folder = path.parent().unwrap_or(Path::new(""));
     let temperatures = StudyTemperatures::read(root, folder, false);
     let states_temperatures = temperatures.conditions.is_some();

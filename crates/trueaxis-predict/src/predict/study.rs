@@ -3,6 +3,7 @@
 use super::cutting::{DatumAxis, Reference};
 use super::monte_carlo::Sampling;
 use super::program::CutProgram;
+use super::running::running_machine;
 use super::servo::{Servo, read_servo};
 use super::set_up::{SetUpReadings, read_set_up, with_length};
 use super::temperatures::{RunningTemperatures, StudyTemperatures};
@@ -14,7 +15,7 @@ use trueaxis_input::{Diagnostics, Dimension, Files, Item, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::errors::{BodyName, ErrorKind, ErrorName, StatedError};
-use trueaxis_machine::file::{machine_of, read_pose};
+use trueaxis_machine::file::read_pose;
 use trueaxis_part::testpiece::TestPiece;
 use trueaxis_part::tolerance::{Acceptance, Tolerances, Verdict};
 use trueaxis_part::{Shape, TestPieceFile};
@@ -160,7 +161,7 @@ pub fn parse_study(files: &Files, path: &Path, text: &str) -> (Option<Study>, Di
 fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let name = root.require("name", "give the study a name").and_then(|i| i.text());
-    let (machine_path, machine) = machine_of(root, path).unzip();
+    let (machine_path, machine) = running_machine(root, path).unzip();
     let temperatures = StudyTemperatures::read(root, folder, true);
     let machine = machine.and_then(|m| temperatures.warm(root, m));
     let hint = "the file of the test piece, relative to the study file";

@@ -68,23 +68,9 @@ fn measurement<'a>(study: &PartStudy, prediction: &PartPrediction, u_mm: f64) ->
 fn compensated<'a>(
     study: &PartStudy,
     prediction: &PartPrediction,
-    CompensatedPart { zero_kept, zero_set }: &CompensatedPart,
+    found: &CompensatedPart,
 ) -> Section<'a> {
-    let headings =
-        ["all in µm", "before", "zero kept", "verdict", "zero set again", "verdict", "allowed"];
-    let mut table = Table::new(headings);
-    for (i, (asked, value)) in study.part.characteristics.iter().zip(&prediction.values).enumerate()
-    {
-        table = table.row([
-            asked.name.clone(),
-            um(value.value_mm),
-            um(zero_kept.values_mm[i]),
-            zero_kept.outcomes[i].word().to_owned(),
-            um(zero_set.values_mm[i]),
-            zero_set.outcomes[i].word().to_owned(),
-            allowed(&asked.limits),
-        ]);
-    }
+    let CompensatedPart { zero_kept, zero_set } = found;
     let sentence = match (zero_kept.outcome, zero_set.outcome) {
         (Outcome::Pass, Outcome::Pass) => {
             "Cut by the compensated program, the part will be in tolerance."
@@ -100,7 +86,32 @@ fn compensated<'a>(
     let note = "By the program that `compensate program` writes (residual and increment 1 µm), on the same machine, with the same u. \
                 Zero kept: where it was set without compensation, so that what counts from it keeps the error of the tip there. Zero set \
                 again: by motion that is compensated, too.";
+    let table = compensated_table(study, prediction, found);
     Section::new("With the program compensated").paragraph(sentence).table(table.note(note))
+}
+
+/// The characteristics before and after a compensation, with the zero where it was set and set again.
+pub fn compensated_table(
+    study: &PartStudy,
+    prediction: &PartPrediction,
+    CompensatedPart { zero_kept, zero_set }: &CompensatedPart,
+) -> Table {
+    let headings =
+        ["all in µm", "before", "zero kept", "verdict", "zero set again", "verdict", "allowed"];
+    let mut table = Table::new(headings);
+    for (i, (asked, value)) in study.part.characteristics.iter().zip(&prediction.values).enumerate()
+    {
+        table = table.row([
+            asked.name.clone(),
+            um(value.value_mm),
+            um(zero_kept.values_mm[i]),
+            zero_kept.outcomes[i].word().to_owned(),
+            um(zero_set.values_mm[i]),
+            zero_set.outcomes[i].word().to_owned(),
+            allowed(&asked.limits),
+        ]);
+    }
+    table
 }
 
 /// The characteristics with one outcome.

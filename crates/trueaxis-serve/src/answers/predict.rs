@@ -26,8 +26,10 @@ use trueaxis::report::{DiagnosticEntry, DrawingDocument, HolesDocument, Predicti
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct PredictRequest {
-    /// The study file: a test piece or holes.
+    /// The study file: a test piece, holes or a part.
     study: String,
+    /// Of a part, whether it is judged by its program compensated for the machine, too; no, if left out.
+    compensated: Option<bool>,
 }
 
 /// The same for a changed machine, without Monte Carlo, fast enough to follow a slider.
@@ -152,7 +154,9 @@ impl Request for PredictRequest {
 
     fn answer(self, desk: &Desk, job: &Job) -> Result<Reply<Self>, Refusal> {
         let study = desk.project.path(&self.study)?;
-        let (predicted, problems) = ask(&Predict { study, ..Predict::default() }, job)?;
+        let compensated = self.compensated.unwrap_or(false);
+        let (predicted, problems) =
+            ask(&Predict { study, compensated, ..Predict::default() }, job)?;
         Ok(match &predicted {
             Predicted::Part(study, prediction) => {
                 let answer = piece(desk, study, prediction, &problems);

@@ -4,14 +4,15 @@ use super::words::{self, argument};
 use super::workpiece::{machine_or_part, on_top};
 use super::{Answer, Content, MachineChoice, NewFile, Question, Tell};
 use crate::files::output::may_fill;
-use crate::report::{self, TablesReport};
+use crate::report::{self, PartWithTables, TablesReport};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use trueaxis_correct::compensate::not_twice;
-use trueaxis_correct::compensate::tables::proof::{IndexLeft, piece_left};
+use trueaxis_correct::compensate::tables::proof::{IndexLeft, part_left, piece_left};
 use trueaxis_correct::compensate::tables::{Compiled, Order, TablesError, Target, compile};
 use trueaxis_input::{Diagnostics, Dimension, Files, Place};
 use trueaxis_machine::Machine;
+use trueaxis_predict::predict::drawing::{PartStudy, is_part_study, predict_part, read_part_study};
 use trueaxis_predict::predict::{Error, Study, read_study};
 use trueaxis_report::{Report, document};
 
@@ -36,7 +37,7 @@ pub struct CompensateTables {
     pub limit_angle: String,
     /// Whether rotary centres and tilts are left to the tables.
     pub no_kinematics: bool,
-    /// A study of a test piece that is cut with the tables.
+    /// A study of a test piece, or of a part by its drawing, that is cut with the tables.
     pub piece: Option<PathBuf>,
     /// Whether tables of the machine alone are wanted, though the temperature of the workpiece is unknown.
     pub machine_only: bool,
@@ -47,6 +48,7 @@ pub struct TablesAnswer {
     machine: Machine,
     compiled: Compiled,
     piece: Option<(String, Vec<IndexLeft>)>,
+    part: Option<Box<PartWithTables>>,
     output: PathBuf,
     written: Vec<String>,
     /// What it can cost that the temperature of the workpiece is not known.
@@ -112,23 +114,26 @@ impl Question for CompensateTables {
     fn answer(
         &self,
         (machine, order, files, price): Self::Input,
-        _: Tell<'_>,
+        progress: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<TablesAnswer> {
         let compiled = compile(&machine, &order)
             .map_err(|e| refuse(&e, self.machine.place(), problems))
             .ok()?;
-        let piece = match &self.piece {
-            Some(path) => {
-                let study = piece(&files, path, &machine, problems)?;
-                Some((path.display().to_string(), cut(&study, path, &compiled, problems)?))
+        let (mut piece, mut part) = (None, None);
+        if let Some(path) = &self.piece {
+            if is_part_study(&files, path) {
+                let study = drawn(&files, path, &machine, problems)?;
+                part = Some(Box::new(cut_part(study, &compiled, progress, problems)?));
+            } else {
+                let study = test_piece(&files, path, &machine, problems)?;
+                piece = Some((path.display().to_string(), cut(&study, path, &compiled, problems)?));
             }
-            None => None,
-        };
+        }
         let output = self.output.clone();
         let written = compiled.files.iter().map(|f| output.join(&f.name).display().to_string());
         let written = written.collect();
-        Some(TablesAnswer { machine, compiled, piece, output, written, price })
+        Some(TablesAnswer { machine, compiled, piece, part, output, written, price })
     }
 }
 
@@ -179,7 +184,7 @@ fn refuse(error: &TablesError, machine: Place, problems: &mut Diagnostics) {
 }
 
 /// The study of a test piece that the tables can be tried on.
-fn piece(
+fn test_piece(
     files: &Files,
     path: &Path,
     machine: &Machine,
@@ -187,17 +192,56 @@ fn piece(
 ) -> Option<Study> {
     let mut study = problems.keep(read_study(files, path))?;
     study.machine = study.machine.with_active_compensation();
-    let (code, message, hint) = if study.machine.axes() != machine.axes() {
-        let message = "its machine has other axes than that of the tables";
-        ("another-machine", message, "name a study of this machine")
-    } else if study.temperatures.is_some() {
-        let message = "its temperatures follow a log; tables do not";
-        ("running-log", message, "name a study without log_start")
-    } else {
-        return Some(study);
-    };
-    problems.error(code, Place::whole(&path.display().to_string()), message.to_owned(), hint);
+    is_of(&study.machine, machine, path, problems)?;
+    if study.temperatures.is_some() {
+        let message = "its temperatures follow a log; tables do not".to_owned();
+        let place = Place::whole(&path.display().to_string());
+        problems.error("running-log", place, message, "name a study without log_start");
+        return None;
+    }
+    Some(study)
+}
+
+/// Whether a study is about the machine of the tables.
+fn is_of(
+    studied: &Machine,
+    machine: &Machine,
+    path: &Path,
+    problems: &mut Diagnostics,
+) -> Option<()> {
+    if studied.axes() == machine.axes() {
+        return Some(());
+    }
+    let message = "its machine has other axes than that of the tables".to_owned();
+    let place = Place::whole(&path.display().to_string());
+    problems.error("another-machine", place, message, "name a study of this machine");
     None
+}
+
+/// The study of a part that the tables can be tried on; it is cut by one machine.
+fn drawn(
+    files: &Files,
+    path: &Path,
+    machine: &Machine,
+    problems: &mut Diagnostics,
+) -> Option<PartStudy> {
+    let mut study = problems.keep(read_part_study(files, path))?;
+    is_of(&study.job.machine, machine, path, problems)?;
+    study.sampling = None;
+    Some(study)
+}
+
+/// The part as it is, and cut on the study's machine with the tables.
+fn cut_part(
+    study: PartStudy,
+    compiled: &Compiled,
+    progress: Tell<'_>,
+    problems: &mut Diagnostics,
+) -> Option<PartWithTables> {
+    let before = predict_part(&study, progress, problems)?;
+    let (control, content) = (compiled.order.target.control(), compiled.content());
+    let after = part_left(&study, &before, (control.as_ref(), &content), problems)?;
+    Some(PartWithTables { study, before, after })
 }
 
 /// The test piece, cut on the study's machine with the tables.
@@ -225,6 +269,7 @@ impl TablesAnswer {
             files: &self.written,
             machine_only: self.price.as_deref(),
             piece: self.piece.as_ref().map(|(study, indices)| (&study[..], &indices[..])),
+            part: self.part.as_deref(),
         }
     }
 }

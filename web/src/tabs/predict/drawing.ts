@@ -39,7 +39,13 @@ export class Drawing {
     this.chosen = document.characteristics.indexOf(nearest);
     fill(
       this.head,
-      h("div", { class: "panel-head" }, h("h1", {}, document.name), studyChoice(this.app, path)),
+      h(
+        "div",
+        { class: "panel-head" },
+        h("h1", {}, document.name),
+        this.compensation(path, document),
+        studyChoice(this.app, path),
+      ),
       h("p", { class: "muted" }, `${document.part}; ${document.steps} steps of the tools${withoutU(document)}`),
       diagnosticList(diagnostics),
     );
@@ -48,6 +54,13 @@ export class Drawing {
       this.verdict,
       h("strong", { dataTest: "verdict" }, document.outcome.toUpperCase()),
       h("span", {}, SENTENCES[document.outcome as Verdict]),
+      document.compensated_outcome
+        ? h(
+            "span",
+            { dataTest: "compensated" },
+            `by the compensated program: ${document.compensated_outcome} with the zero kept, ${document.compensated_zero_set_outcome} with it set again`,
+          )
+        : null,
       document.monte_carlo
         ? h(
             "span",
@@ -70,6 +83,21 @@ export class Drawing {
     this.map.show(frame);
   }
 
+  /** What the program compensated for the machine would make of the part; asked for, as it cuts the part twice more. */
+  private compensation(path: string, document: DrawingHeader["document"]): HTMLElement {
+    const is_shown = document.compensated_outcome !== undefined;
+    return h(
+      "button",
+      {
+        dataTest: "compensate",
+        ariaPressed: String(is_shown),
+        title: "The part as the program of `compensate program` cuts it",
+        onclick: () => this.app.go("predict", { study: path, compensated: is_shown ? null : "true" }),
+      },
+      "Compensate the program",
+    );
+  }
+
   private showValues(document: DrawingHeader["document"]): void {
     const row = (value: CharacteristicValue, i: number): HTMLElement =>
       h(
@@ -83,6 +111,8 @@ export class Drawing {
         h("td", { class: "number" }, allowed(value)),
         h("td", { class: `used ${value.outcome}` }, `${number(100 * value.used_ratio, 0)} %`),
         value.monte_carlo ? h("td", { class: "number" }, share(value.monte_carlo.good_ratio)) : null,
+        compensated("kept", value.compensated),
+        compensated("set", value.compensated_zero_set),
       );
     fill(
       this.values,
@@ -108,6 +138,20 @@ export class Drawing {
                   "th",
                   { class: "number", title: "the share of machines drawn within u on which it is in tolerance" },
                   "good on",
+                )
+              : null,
+            document.compensated_outcome
+              ? h(
+                  "th",
+                  { class: "number", title: "by the compensated program, the zero where it was set before" },
+                  "zero kept",
+                )
+              : null,
+            document.compensated_outcome
+              ? h(
+                  "th",
+                  { class: "number", title: "the same with the zero set again by compensated motion" },
+                  "zero set again",
                 )
               : null,
           ),
@@ -203,6 +247,10 @@ export class Drawing {
     );
   }
 }
+
+/** A value by the compensated program, in the colour of its verdict. */
+const compensated = (cell: string, found: CharacteristicValue["compensated"]): HTMLElement | null =>
+  found ? h("td", { class: `number ${found.outcome}`, dataCell: cell }, number(1e3 * found.value_mm, 2)) : null;
 
 /** Which single correction would do. */
 const correction = (names: readonly string[]): string =>

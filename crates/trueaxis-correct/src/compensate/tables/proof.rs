@@ -13,11 +13,15 @@ use super::table::Table;
 use super::{Order, TablesError};
 use std::rc::Rc;
 use trueaxis_geometry::Vec3;
+use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, AxisKind, Command, MAX_AXES};
 use trueaxis_machine::chain::{ChainBody, CommandFault};
 use trueaxis_machine::errors::{ErrorKind, ErrorName, ErrorValues};
 use trueaxis_machine::volume::commands;
+use trueaxis_predict::predict::drawing::{
+    CompensatedPart, Deviations, Otherwise, PartPrediction, PartStudy, predict_otherwise,
+};
 use trueaxis_predict::predict::{Cutting, Error, Judge, Study};
 
 /// Poses over the travel of all axes beside the corners, each reached rising and falling.
@@ -309,4 +313,32 @@ pub fn piece_left(
     let names = study.piece().index_names().iter().map(|n| n.key.to_string());
     let pairs = names.zip(before.into_iter().zip(after));
     Ok(pairs.map(|(key, (before_mm, left_mm))| IndexLeft { key, before_mm, left_mm }).collect())
+}
+
+/// A control with its content, whatever the machine.
+struct WithTables<'a> {
+    control: &'a dyn Control,
+    content: &'a Content,
+}
+
+impl Otherwise for WithTables<'_> {
+    fn deviations<'m>(&'m self, machine: &'m Machine) -> Deviations<'m> {
+        let leaves = Emulation::new(machine, self.control, self.content);
+        Box::new(move |command, approach| {
+            off(machine, command, &leaves.added(command, approach), approach)
+        })
+    }
+}
+
+/// The part of a study cut with the tables in the control: the zero where it was set without them, and set again with them.
+///
+/// # Errors
+/// As [`predict_otherwise`].
+pub fn part_left(
+    study: &PartStudy,
+    prediction: &PartPrediction,
+    (control, content): (&dyn Control, &Content),
+    problems: &mut Diagnostics,
+) -> Option<CompensatedPart> {
+    predict_otherwise(study, prediction, &WithTables { control, content }, problems)
 }

@@ -1,16 +1,18 @@
-//! The same part by its program compensated for the machine: before and after.
+//! The same part by its program compensated for the machine, or with tables in the control: before and after.
 
 use super::path::CutPath;
 use super::{PartPrediction, PartStudy, PartValue, nails, outcome, reached, sweeps, together};
 use trueaxis_cut::cut;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{Diagnostics, Place};
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_motion::{Observer, simulate};
 use trueaxis_nc::Program;
 use trueaxis_part::part::Characteristic;
 use trueaxis_part::tolerance::Outcome;
 
-/// What the compensated program makes of the part on the same machine.
+/// What compensation makes of the part on the same machine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CompensatedPart {
     /// With the zero where it was set, by the machine without compensation: what counts from it keeps the error of the tip there.
@@ -52,6 +54,56 @@ pub fn predict_compensated(
         problems.error("motion-left-out", Place::whole(program.file()), message, hint);
         return None;
     }
+    Some(CompensatedPart {
+        zero_kept: judged(study, prediction, &kept, problems)?,
+        zero_set: judged(study, prediction, &set, problems)?,
+    })
+}
+
+/// Where tip and axis are off, by command and approach, mm and 1; none where the errors are not known.
+pub type Deviations<'m> = Box<dyn Fn(&Command, &Approach) -> Option<[Vec3; 2]> + 'm>;
+
+/// A machine that deviates otherwise than by its errors alone, such as with tables in its control.
+pub trait Otherwise {
+    /// Deviations of the machine with a tool.
+    fn deviations<'m>(&'m self, machine: &'m Machine) -> Deviations<'m>;
+}
+
+/// Cuts the part of a prediction by its program on the machine that deviates otherwise.
+///
+/// # Errors
+/// As [`super::predict_part`]; that a deviation is not known.
+pub fn predict_otherwise(
+    study: &PartStudy,
+    prediction: &PartPrediction,
+    otherwise: &dyn Otherwise,
+    problems: &mut Diagnostics,
+) -> Option<CompensatedPart> {
+    let place = Place::whole(&study.path.display().to_string());
+    let set_mm = match &study.setting {
+        None => Some(Vec3::zeros()),
+        Some(at) => {
+            otherwise.deviations(&study.mounted)(at, &Approach::default()).map(|[tip, _]| tip)
+        }
+    };
+    let cut_from = |zero_mm: &Vec3| {
+        let mut path = CutPath::new(&study.job, zero_mm);
+        study.job.run(None, &mut [&mut path as &mut dyn Observer]);
+        let machines = path.machines(&study.mounted);
+        let moved = path.displace(&machines, |machine| {
+            let deviation = otherwise.deviations(machine);
+            move |command: &Command, approach: &Approach| deviation(command, approach).ok_or(())
+        });
+        moved.ok().map(|()| path)
+    };
+    let kept = cut_from(&study.zero(problems)?);
+    let set = set_mm.and_then(|zero| cut_from(&zero));
+    let (Some(kept), Some(set)) = (kept, set) else {
+        let message = "the errors are not known everywhere where the compensated program goes";
+        let hint = "cover the travel by the tables of the machine file";
+        problems.error("outside-table", place, message.to_owned(), hint);
+        return None;
+    };
     Some(CompensatedPart {
         zero_kept: judged(study, prediction, &kept, problems)?,
         zero_set: judged(study, prediction, &set, problems)?,

@@ -93,7 +93,10 @@ pub fn cut_with(study: &PartStudy, factors: &[f64]) -> Result<Vec<f64>, String> 
     };
     let mut path = CutPath::new(&study.job, &zero_mm);
     study.job.run(None, &mut [&mut path as &mut dyn Observer]);
-    path.displace(mounted, tip)?;
+    let machines = path.machines(mounted);
+    path.displace(&machines, |machine| {
+        move |command: &Command, approach: &Approach| tip(machine, command, approach)
+    })?;
     let (actual, nominal) = path.sweeps()?;
     let mut problems = Diagnostics::new();
     let part = super::programmed::completed(study, &nominal, &mut problems);

@@ -49,17 +49,20 @@ impl<'j> CutPath<'j> {
         Self { job, zero_mm: *zero_mm, tools: BTreeMap::new(), begins: BTreeMap::new(), last: None }
     }
 
-    /// Moves the actual tools to where a machine of other errors has them: deviations of tip and axis by machine with its tool, command
-    /// and approach.
-    pub(super) fn displace<E>(
+    /// Moves the actual tools to where a machine of other errors has them: deviations of tip and axis by command and approach, for each of
+    /// [`CutPath::machines`].
+    pub(super) fn displace<'m, E, D>(
         &mut self,
-        mounted: &Machine,
-        deviation: impl Fn(&Machine, &Command, &Approach) -> Result<[Vec3; 2], E>,
-    ) -> Result<(), E> {
-        let machines = self.machines(mounted);
-        for (stops, machine) in self.tools.values_mut().zip(&machines) {
+        machines: &'m [Machine],
+        deviations: impl Fn(&'m Machine) -> D,
+    ) -> Result<(), E>
+    where
+        D: Fn(&Command, &Approach) -> Result<[Vec3; 2], E>,
+    {
+        for (stops, machine) in self.tools.values_mut().zip(machines) {
+            let deviation = deviations(machine);
             for stop in stops {
-                let [tip, axis] = deviation(machine, &stop.command, &stop.approach)?;
+                let [tip, axis] = deviation(&stop.command, &stop.approach)?;
                 stop.actual = ToolPose {
                     tip_mm: stop.nominal.tip_mm + tip - self.zero_mm,
                     axis: (stop.nominal.axis + axis).normalize(),

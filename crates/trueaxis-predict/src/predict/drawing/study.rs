@@ -3,6 +3,7 @@
 use super::super::Setting;
 use super::super::cutting::setting_command;
 use super::super::monte_carlo::Sampling;
+use super::super::running::running_machine;
 use super::super::study::{
     Decision, check_uncertainties, read_decision, read_sampling, read_setting,
 };
@@ -12,7 +13,6 @@ use trueaxis_geometry::Vec3;
 use trueaxis_input::{Diagnostics, Dimension, Files, Place, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Command};
-use trueaxis_machine::file::machine_of;
 use trueaxis_motion::{Densify, Job, Options, ProgramFiles};
 use trueaxis_part::part::Part;
 
@@ -78,7 +78,7 @@ pub fn read_part_study(files: &Files, path: &Path) -> (Option<PartStudy>, Diagno
 fn read(root: &Section<'_>, path: &Path) -> Option<PartStudy> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let name = root.require("name", "give the study a name").and_then(|i| i.text());
-    let machine = machine_of(root, path).map(|(_, machine)| machine);
+    let machine = running_machine(root, path).map(|(_, machine)| machine);
     let temperatures = StudyTemperatures::read(root, folder, false);
     let machine = machine.and_then(|m| temperatures.warm(root, m));
     let mut problems = Diagnostics::new();
