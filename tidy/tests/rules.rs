@@ -1,5 +1,6 @@
 //! Each rule is one function that lists its violations; the test shows all of them at once.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use tidy::arrows::{Modules, arrows, circles, module_of, read_source};
@@ -143,6 +144,13 @@ fn numbers_without_unit() -> Vec<String> {
 fn lost_equations() -> Vec<String> {
     let model = read(&root().join("docs/model.md"));
     let mut lost = Vec::new();
+    let mut seen = BTreeSet::new();
+    for line in model.lines().filter(|line| line.starts_with("**(")) {
+        let number = line[3..].split(')').next().unwrap_or_default();
+        if !seen.insert(number) {
+            lost.push(format!("docs/model.md: ({number}) stands twice"));
+        }
+    }
     for (path, text) in sources() {
         for (i, line) in text.lines().enumerate() {
             let Some(at) = line.find("docs/model.md eq. ") else { continue };
@@ -610,7 +618,7 @@ fn house_rules() {
         ("no panic without `// why:`", unexplained_panics),
         ("no `unsafe` without `// SAFETY:`", unsafe_without_reason),
         ("public numbers name their unit", numbers_without_unit),
-        ("cited equations exist", lost_equations),
+        ("cited equations exist, each once", lost_equations),
         ("no place of a developer's machine", foreign_places),
         ("machines name their source", machines_without_source),
         ("crates use what is below them", forbidden_arrows),

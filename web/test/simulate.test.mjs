@@ -143,6 +143,19 @@ test("the curves: a click picks the time, a drag looks closer", async () => {
   await context.close();
 });
 
+test("the stock: what was removed, what remains, feed in the air", async () => {
+  const { page, complaints, document } = await example(ring, engraver);
+  const { stock } = document;
+  const cm3 = (v) => `${(v / 1e3).toFixed(2)}\u202fcm³`;
+  assert.equal(await shown(page, "removed"), cm3(stock.removed_mm3));
+  assert.equal(await shown(page, "remains"), cm3(stock.left_mm3));
+  const air = (100 * stock.air_s) / (stock.air_s + stock.cutting_s);
+  assert.equal(await shown(page, "air"), `${air.toFixed(0)} %`);
+  assert.equal(await page.locator('[data-test="gouged"]').count(), 0);
+  await picture(page, "simulate-stock");
+  assert.deepEqual(complaints, []);
+});
+
 test("a collision is a mark that jumps to it", async () => {
   const { page, complaints, context, document } = await example(collision, engraver);
   const issue = document.troubles.find((t) => t.grave);

@@ -343,4 +343,17 @@ mod tests {
         let wide = "target_mm,up_1_um,up_2_um,down_1_um,down_2_um\n0,0,2,-3,-3\n9,4,4,3,1\n";
         assert_eq!(result(wide), result(TWO));
     }
+
+    /// Each figure has a key, a symbol and a name of its own; the key is the symbol in letters that a program takes.
+    #[test]
+    fn figures_have_names_of_their_own() {
+        for of in [Quantity::key, Quantity::symbol, Quantity::title] {
+            let all: std::collections::BTreeSet<&str> = Quantity::ALL.into_iter().map(of).collect();
+            assert!(all.len() == 12 && !all.contains(""), "{all:?}");
+        }
+        for quantity in Quantity::ALL {
+            let letters = quantity.symbol().replace('↑', "_up").replace('↓', "_down");
+            assert_eq!(quantity.key(), letters.replace("B\u{304}", "B_mean"));
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! At which feeds was it read, and what do lag and geometry have in common at them?
 //!
 //! ```text
-//!     R² = gᵀ G⁺ g/(jᵀj)      g = Gᵀ-column products of the lag j           docs/model.md eq. 195
+//!     R² = gᵀ G⁺ g/(jᵀj)      g = Gᵀ-column products of the lag j           docs/model.md eq. 334
 //! ```
 
 use super::records::Records;

@@ -103,6 +103,7 @@ fn best(solutions: &[Solution], rotary: &[usize], from: &Command) -> Option<usiz
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::file::NoTables;
 
     #[test]
     fn principal_angles_have_one_seam() {
@@ -127,5 +128,37 @@ mod tests {
         assert_eq!(degrees(Travel::Unlimited, 90.0, 270.0), []);
         assert_eq!(degrees(Travel::Unlimited, -90.0, 90.0), []);
         assert_eq!(degrees(Travel::Unknown, 90.0, 700.0), []);
+    }
+
+    /// Of two solutions within the travel the nearer one is that which comes first in the order of all: near ways, equal ways, equal ways of the
+    /// first axis, and one that is the same.
+    #[test]
+    fn law_the_nearer_of_two_is_the_first_of_two() {
+        let text = "[machine]\nname = \"m\"\nchain = \"w C' A' b X Y Z t\"\n";
+        let machine = Machine::check("m.toml", text, &NoTables).0.expect("a machine");
+        let rotary: Vec<usize> = machine.rotary_axes().collect();
+        let angles = [-2.5, -0.75, -0.5, 0.0, 0.5, 0.75, 2.0];
+        let command = |q: [f64; 2]| {
+            let mut command = Command::default();
+            for (axis, angle) in rotary.iter().zip(q) {
+                command[*axis] = angle;
+            }
+            command
+        };
+        let all: Vec<[f64; 2]> =
+            angles.iter().flat_map(|a| angles.iter().map(|b| [*a, *b])).collect();
+        for from in [[0.0, 0.0], [0.5, -0.75], [2.0, 0.25]].map(command) {
+            for a in all.iter().map(|q| command(*q)) {
+                for b in all.iter().map(|q| command(*q)).filter(|b| *b != a) {
+                    let first = in_order(&machine, vec![a, b], &from)[0].command;
+                    assert_eq!(
+                        is_nearer(&machine, &a, &b, &from),
+                        first == a,
+                        "{a:?} {b:?} {from:?}"
+                    );
+                }
+                assert!(!is_nearer(&machine, &a, &a, &from));
+            }
+        }
     }
 }

@@ -202,4 +202,61 @@ mod tests {
         let phases = Phases::of_run([0.0, 0.0], [0.0, 0.0], 40.0, &BOUNDS);
         assert!((time_at(&phases.list()[0], 0.09) - 0.03).abs() < 1e-14);
     }
+
+    const OTHERS: [Bounds; 3] =
+        [BOUNDS, Bounds { v: 3.0, a: 0.5, j: 200.0 }, Bounds { v: 800.0, a: 9_000.0, j: 40.0 }];
+    const SHARES: [f64; 7] = [0.0, 1e-6, 0.01, 0.3, 0.7, 0.99, 1.0];
+
+    /// Lengths from far too short to far longer than the change to the largest velocity.
+    fn lengths(bounds: &Bounds) -> impl Iterator<Item = f64> {
+        let whole = ramp_length(0.0, bounds.v, bounds);
+        (-30..=4).map(move |k| whole * 1.7_f64.powi(k))
+    }
+
+    /// The velocity that is reached fits into the length, and one that is a millionth larger does not; neither from zero nor near the limit.
+    #[test]
+    fn law_what_is_reached_just_fits() {
+        for bounds in &OTHERS {
+            for v0 in SHARES.map(|share| share * bounds.v) {
+                for length in lengths(bounds) {
+                    let v1 = reach(v0, length, bounds);
+                    assert!((v0..=bounds.v).contains(&v1), "{bounds:?} {v0} {length}: {v1}");
+                    // But for the last digit of the velocity itself.
+                    let rounded = (v1 * (1.0 - f64::EPSILON)).max(v0);
+                    let fits = ramp_length(v0, rounded, bounds) <= length;
+                    assert!(fits, "{bounds:?} {v0} {length}: {v1}");
+                    let more = v1 + 1e-6 * bounds.v;
+                    let fits = more > bounds.v || ramp_length(v0, more, bounds) <= length;
+                    assert!(
+                        !fits || v1 >= bounds.v * (1.0 - 1e-6),
+                        "{bounds:?} {v0} {length}: {v1}"
+                    );
+                }
+            }
+        }
+    }
+
+    /// The same of the velocity between two others.
+    #[test]
+    fn law_the_top_just_fits() {
+        for bounds in &OTHERS {
+            for ends in SHARES.iter().flat_map(|a| SHARES.map(|b| [a * bounds.v, b * bounds.v])) {
+                let [v0, v1] = ends;
+                let need = |top: f64| ramp_length(v0, top, bounds) + ramp_length(top, v1, bounds);
+                for length in lengths(bounds).filter(|l| ramp_length(v0, v1, bounds) <= *l) {
+                    let top = top_velocity(v0, v1, length, bounds);
+                    assert!((v0.max(v1)..=bounds.v).contains(&top), "{bounds:?} {ends:?} {length}");
+                    assert!(
+                        need(top) <= length * (1.0 + 1e-12),
+                        "{bounds:?} {ends:?} {length}: {top}"
+                    );
+                    let is_all = top >= bounds.v * (1.0 - 2e-6);
+                    assert!(
+                        is_all || need(top + 1e-6 * bounds.v) > length,
+                        "{bounds:?} {ends:?} {length}: {top}"
+                    );
+                }
+            }
+        }
+    }
 }

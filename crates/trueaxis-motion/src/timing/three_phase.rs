@@ -206,4 +206,20 @@ mod tests {
         let all: Vec<f64> = constant.phases().expect("a block").stamps_s(4).collect();
         assert!(all.len() == 5 && (all[2] - 19.0 / 60.0).abs() < 1e-14);
     }
+
+    /// What is not finite or has the wrong sign makes no block, each number by itself.
+    #[test]
+    fn what_is_no_block() {
+        let good = block(10.0);
+        assert!(good.phases().is_some());
+        assert!(Block { start: 0.0, end: 0.0, ..good }.phases().is_some());
+        for wrong in [f64::INFINITY, f64::NAN, -1.0] {
+            assert!(Block { length: wrong, ..good }.phases().is_none(), "{wrong}");
+            assert!(Block { feed: wrong, ..good }.phases().is_none(), "{wrong}");
+            assert!(Block { acceleration: wrong, ..good }.phases().is_none(), "{wrong}");
+            assert!(Block { start: wrong, ..good }.phases().is_none(), "{wrong}");
+            assert!(Block { end: wrong, ..good }.phases().is_none(), "{wrong}");
+        }
+        assert!(Block { length: 0.0, ..good }.phases().is_none());
+    }
 }

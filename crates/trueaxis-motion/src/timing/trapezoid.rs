@@ -94,6 +94,7 @@ fn time_s(stretches: &[Stretch]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use trueaxis_machine::axis::{Command, MAX_AXES};
 
     /// From rest to rest over 4 mm with 1 mm/s²: 2 √(4/1) = 4 s, wherever it is cut.
     #[test]
@@ -103,5 +104,23 @@ mod tests {
             let parts = [cut, 4.0 - cut].map(|length| Stretch { length, bounds });
             assert!((time_s(&parts) - 4.0).abs() < 1e-12, "{cut}: {}", time_s(&parts));
         }
+    }
+
+    /// 40 mm of an axis with 5 mm/s and 2 mm/s², from rest to rest: 2.5 s to speed up and as long to slow down over 12.5 mm in all, 27.5 mm at 5 mm/s;
+    /// and half a second of dwell.
+    #[test]
+    fn law_a_move_from_rest_to_rest() {
+        let mut limits = AxisLimits::UNLIMITED;
+        limits.velocity[0] = 5.0;
+        limits.acceleration[0] = 2.0;
+        let there = |x: f64, dwell_s: f64| {
+            let mut command = Command::default();
+            command[0] = x;
+            let (length, feed, tolerance) = (40.0, f64::INFINITY, [0.0; MAX_AXES]);
+            Node { command, length, feed, stop: true, tolerance, dwell_s }
+        };
+        let nodes = [there(0.0, 0.0), there(40.0, 0.5)];
+        let found = without_jerk_s(&limits, &nodes).expect("a time");
+        assert!((found - (5.0 + 27.5 / 5.0 + 0.5)).abs() < 1e-12, "{found}");
     }
 }

@@ -3,7 +3,7 @@
 import { diagnosticList } from "../../app.ts";
 import type { Diagnostic, Refusal } from "../../api.ts";
 import { fill, h, type Child } from "../../dom.ts";
-import { clock, mm, um, urad } from "../../format.ts";
+import { clock, mm, number, um, urad, withUnit } from "../../format.ts";
 import type { Mark, SimulationDocument, SimulationHeader } from "./answers.ts";
 
 /** Rows of issues in the page; the report has all. */
@@ -17,6 +17,40 @@ function fact(title: string, value: Child, key: string, more: Child = null): HTM
 function across({ deviation }: SimulationDocument): number {
   return Math.max(Math.abs(deviation.normal_um.value), Math.abs(deviation.binormal_um.value));
 }
+
+/** What became of the stock, where it was cut. */
+function stockFacts(stock: SimulationDocument["stock"]): Child {
+  if (!stock) return null;
+  const muted = (text: string): HTMLElement => h("span", { class: "muted" }, text);
+  const feed_s = stock.cutting_s + stock.air_s;
+  return h(
+    "div",
+    { class: "facts" },
+    fact("material removed", cm3(stock.removed_mm3), "removed", muted(`of ${cm3(stock.before_mm3)}`)),
+    fact(
+      "stock that remains",
+      cm3(stock.left_mm3),
+      "remains",
+      muted(`± ${cm3(stock.spread_mm3)}, lines ${mm(stock.resolution_mm, 2)} apart`),
+    ),
+    fact(
+      "feed in the air",
+      `${number(feed_s > 0 ? (100 * stock.air_s) / feed_s : 0, 0)} %`,
+      "air",
+      muted(`${clock(stock.air_s)} of ${clock(feed_s)}`),
+    ),
+    stock.gouged_mm3 === null
+      ? null
+      : fact(
+          "cut from the part",
+          cm3(stock.gouged_mm3),
+          "gouged",
+          muted(`${cm3(stock.excess_mm3 ?? 0)} remain around it`),
+        ),
+  );
+}
+
+const cm3 = (mm3: number): string => withUnit(mm3 / 1e3, 2, "cm³");
 
 function verdict(header: SimulationHeader): HTMLElement {
   const critical = header.marks.filter((m) => m.grave);
@@ -90,6 +124,7 @@ export class Summary {
           h("span", { class: "muted" }, `${mm(doc.feed_mm, 0)} in feed`),
         ),
       ),
+      stockFacts(doc.stock),
       this.remarks(header),
       header.diagnostics.length > 0
         ? h(

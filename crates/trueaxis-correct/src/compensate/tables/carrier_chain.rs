@@ -8,7 +8,7 @@
 //! ```
 //!
 //! L·q are the linear axes, t the tool, R1 and R2 turns about V1 and V2. With the closing vectors nothing is added at
-//! zero angles, whatever the others are: docs/model.md eq. 190.
+//! zero angles, whatever the others are: docs/model.md eq. 333.
 
 use super::control::File;
 use super::lever::sum;

@@ -4,7 +4,7 @@
 //!     c(x, y, z) = Σ over the eight corners of the cell: share_x·share_y·share_z · c(corner)
 //! ```
 //!
-//! Trilinear inside, the value of the nearest place of the grid outside. docs/model.md eq. 181.
+//! Trilinear inside, the value of the nearest place of the grid outside. docs/model.md eq. 329.
 
 use trueaxis_machine::chain::CommandFault;
 

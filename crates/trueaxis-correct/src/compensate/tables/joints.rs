@@ -6,7 +6,7 @@
 //! ```
 //!
 //! A control that has them moves the linear axes so that the tip is right about the actual axes. A turn of an
-//! axis about itself (its zero) is none of them. docs/model.md eq. 182.
+//! axis about itself (its zero) is none of them. docs/model.md eq. 330.
 
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;

@@ -5,7 +5,7 @@
 //!     P · Λ · J(q) · E(q) = P · E″(q) · J(q)       fixed:    ε″ = ε_Λ + R·ε_E         δ″ = δ_Λ + R·δ_E − R·ε_E × d
 //! ```
 //!
-//! R and d are the turn and the shift of J(q); to first order. docs/model.md eq. 180. What the products of two
+//! R and d are the turn and the shift of J(q); to first order. docs/model.md eq. 328. What the products of two
 //! errors add is part of the residual error, which is judged on the whole machine.
 
 use super::content::Content;

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! J are the joints X, Y, Z; P is the position for the table at its zero. src/emc/kinematics/trtfuncs.c of LinuxCNC,
-//! docs/model.md eq. 184. d has no component along T, and z-rot-point and z-offset act as their sum; here the first
+//! docs/model.md eq. 332. d has no component along T, and z-rot-point and z-offset act as their sum; here the first
 //! is the z of the point of C, so that both points can be read back.
 
 use super::control::{File, ReadFault};

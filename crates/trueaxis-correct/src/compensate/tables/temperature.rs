@@ -4,7 +4,7 @@
 //!     c(q; T) − c(q; cold) ≈ offset + slope·(q − reference)        least squares over the travel
 //! ```
 //!
-//! docs/model.md eq. 183. The tables stay those of the temperatures at which the machine was measured.
+//! docs/model.md eq. 331. The tables stay those of the temperatures at which the machine was measured.
 
 use super::TablesError;
 use super::content::{Content, Line};
