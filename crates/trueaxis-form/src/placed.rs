@@ -15,6 +15,8 @@ pub type Motion = Pose<Body, Body>;
 /// Square of the motion of a surface, per unit of a small motion, below which it does not move.
 const STILL: f64 = 1e-12;
 const MOST_STEPS: usize = 200;
+/// A rigid body has so many.
+const DEGREES: usize = 6;
 /// Gains below this are rounding; lengths are in units of the size.
 const ROUNDING: f64 = 4e-15;
 const FIRST_TRUST: f64 = 1e-3;
@@ -100,16 +102,15 @@ impl Freedom {
         if n == 0 || surface.is_empty() {
             return (self.clone(), with(Vec::new()));
         }
-        let mut gram = DMatrix::<f64>::zeros(n, n);
+        let mut sums = [[0.0; DEGREES]; DEGREES];
         for [point, normal] in surface {
             let rows = self.slopes(point, normal);
-            for a in 0..n {
-                for b in 0..n {
-                    gram[(a, b)] += rows[a] * rows[b] / surface.len() as f64;
-                }
+            for (row, a) in sums.iter_mut().zip(rows) {
+                row.iter_mut().zip(rows).for_each(|(sum, b)| *sum += a * b);
             }
         }
-        let eigen = SymmetricEigen::new(gram);
+        let count = surface.len() as f64;
+        let eigen = SymmetricEigen::new(DMatrix::from_fn(n, n, |a, b| sums[a][b] / count));
         let (mut still, mut moving) = (Vec::new(), Vec::new());
         for (k, value) in eigen.eigenvalues.iter().enumerate() {
             let vector = eigen.eigenvectors.column(k);
@@ -123,10 +124,16 @@ impl Freedom {
         (with(still), with(moving))
     }
 
-    /// How far each twist moves a point along a direction.
-    fn slopes(&self, point_mm: &Vec3, normal: &Vec3) -> Vec<f64> {
+    /// How far each twist moves a point along a direction; zeros after the last.
+    fn slopes(&self, point_mm: &Vec3, normal: &Vec3) -> [f64; DEGREES] {
         let arm = (point_mm - self.pivot_mm) / self.size_mm;
-        self.twists.iter().map(|t| normal.dot(&(t.way + t.turn.cross(&arm)))).collect()
+        // The same for all twists: (n, t × a) = (t, a × n).
+        let moment = arm.cross(normal);
+        let mut slopes = [0.0; DEGREES];
+        for (slope, t) in slopes.iter_mut().zip(&self.twists) {
+            *slope = t.way.dot(normal) + t.turn.dot(&moment);
+        }
+        slopes
     }
 
     /// The motion of so much of each twist: a screw, so that a surface that a twist leaves alone stays where it is.
@@ -182,7 +189,8 @@ pub fn place(
     }
     let about = |motion: &Motion| {
         let back = motion.inverse();
-        let (mut values, mut slopes) = (Vec::new(), Vec::new());
+        let count = points_mm.len();
+        let (mut values, mut slopes) = (Vec::with_capacity(count), Vec::with_capacity(count));
         for (i, point) in points_mm.iter().enumerate() {
             let there = (back * Point::from_vector(*point)).vector();
             let (value, gradient) = distance(i, &there);
