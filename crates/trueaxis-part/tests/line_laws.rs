@@ -55,6 +55,26 @@ fn law_lines_of_a_plane() {
     close(&values(&asked, "top", &saddle), &[0.0, 8e-3], 1e-8);
 }
 
+/// An opening that leaves two points of the middle lines leaves the others; one that leaves of every line two leaves nothing to judge.
+#[test]
+fn lines_of_two_points_are_straight() {
+    let plate = |rows: u32, opening: &str| {
+        let text = format!(
+            "name = \"p\"\n[feature.top]\nplane = {{ at = \"0 0 0 mm\", normal = \"0 0 1\", along = \"1 0 0\", size = \"100 60 mm\" }}\n\
+             extraction = {{ rows = {rows}, points = 9 }}\nopenings = [{{ at = \"0 0 0 mm\", size = \"{opening}\" }}]\n\
+             [[characteristic]]\nline_straightness = \"20 um\"\nof = \"top\"\n"
+        );
+        let source = SourceText::from(&Files::none(), "p.toml", &text);
+        let part = source.read(|root| Part::read(root, Path::new(""))).expect("a part");
+        let sag = |p: &SurfacePoint| 4e-3 * (p.point_mm.x / 49.75).powi(2);
+        let deviation_mm: Vec<f64> = part.features[0].points.iter().map(sag).collect();
+        part.evaluate(&deviation_mm)
+    };
+    close(&plate(7, "90 30 mm").expect("a value"), &[4e-3], 1e-8);
+    let error = plate(7, "90 70 mm").expect_err("no line").to_string();
+    assert!(error.contains("three points"), "{error}");
+}
+
 /// A barrel of 3 µm has lines that are 3 µm out of straight on both sides; a hole that leans, is too wide, conical or oval has straight ones. On a cone
 /// the normal leans, and its lines are as long as its flank.
 #[test]

@@ -29,7 +29,12 @@ impl Surface<'_> {
                 (0..around).map(line).collect()
             }
         };
-        lines.iter().try_fold(0.0, |most: f64, (line, normal)| {
+        // What an opening leaves of a line may be two points, which are straight.
+        let whole = || lines.iter().filter(|(line, _)| line.len() > 2);
+        if whole().next().is_none() {
+            return Err(unfit("no line of it has three points"));
+        }
+        whole().try_fold(0.0, |most: f64, (line, normal)| {
             let places: Vec<Vec3> = line.iter().map(|i| self.places_mm[*i]).collect();
             let known = Known { normal: Some(*normal), ..Known::default() };
             let found = element(Element::Line, Criterion::MinimumZone, &places, &known)?;
