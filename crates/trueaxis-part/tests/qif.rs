@@ -50,7 +50,7 @@ fn is_left_out(draft: &Draft, id: &str, reason: &str) -> bool {
 fn a_complete_draft_is_read_and_judged() {
     let (draft, problems) = drafted(&in_mm());
     assert_eq!(problems.iter().count(), 0, "{problems:?}");
-    assert_eq!((draft.features(), draft.characteristics(), draft.unknown()), (7, 14, 0));
+    assert_eq!((draft.features(), draft.characteristics(), draft.unknown()), (8, 17, 0));
     let text = draft.text();
     let part = part(&text);
     let values = part.evaluate(&vec![0.0; part.points()]).expect("values");
@@ -62,6 +62,10 @@ fn a_complete_draft_is_read_and_judged() {
         "hole = { at = \"40 30 15 mm\", axis = \"0 0 -1\", diameter = \"20 mm\", length = \"15 mm\" }",
         "plane = { at = \"40 8 6 mm\", normal = \"0 -0.6 0.8\", along = \"1 0 0\", size = \"40 20 mm\" }",
         "diameter = [\"-10 um\", \"25 um\"]",
+        // What both sides have: from x = 12 to 30 mm, from z = 10 to 20 mm.
+        "slot = { at = \"21 51 15 mm\", across = \"0 1 0\", along = \"1 0 0\", width = \"6 mm\", size = \"18 10 mm\" }",
+        "width = [\"-10 um\", \"25 um\"]",
+        "line_straightness = \"20 um\"",
         "datum = \"A|B|C\"",
     ] {
         assert!(text.lines().any(|l| l == line), "no {line} in\n{text}");
@@ -133,8 +137,8 @@ fn what_the_file_does_not_state_is_marked_on_its_line() {
     let without_faces =
         text.replace("<EntityInternalIds", "<Other").replace("</EntityInternalIds", "</Other");
     let (draft, _) = drafted(&without_faces);
-    // Four planes without a size, two bores without a length.
-    assert_eq!((draft.unknown(), draft.characteristics()), (6, 14));
+    // Four planes and a slot without a size, two bores without a length.
+    assert_eq!((draft.unknown(), draft.characteristics()), (7, 17));
     let text = draft.text();
     for line in text.lines().filter(|l| l.contains("\"?\"")) {
         assert!(
@@ -349,7 +353,7 @@ fn a_group_stands_for_its_features_and_never_for_itself() {
     let text = in_mm().replace(asked, &asked.replace(">15<", ">18<"));
     let grouped = text.replace("<FeatureNominals>", &group("18", "<Id>15</Id><Id>16</Id>"));
     let (draft, problems) = drafted(&grouped);
-    assert_eq!((draft.characteristics(), problems.iter().count()), (15, 0), "{problems:?}");
+    assert_eq!((draft.characteristics(), problems.iter().count()), (18, 0), "{problems:?}");
     assert_eq!(draft.text().matches("roundness = ").count(), 2);
     let cyclic = text.replace("<FeatureNominals>", &group("18", "<Id>15</Id><Id>18</Id>"));
     let (draft, problems) = drafted(&cyclic);
@@ -423,7 +427,7 @@ fn hostile_files_are_refused_by_name() {
     refused(&format!("{}{}", "<a>".repeat(deep), "</a>".repeat(deep)), "not-qif");
     let inside = format!("<FileUnits>{}{}", "<a>".repeat(deep), "</a>".repeat(deep));
     let (deep_draft, _) = drafted(&text.replacen("<FileUnits>", &inside, 1));
-    assert_eq!(deep_draft.characteristics(), 14);
+    assert_eq!(deep_draft.characteristics(), 17);
 }
 
 /// Wherever a file is cut, or one of its words replaced, there is a draft or an error, and what a draft marks as complete is read.
@@ -553,7 +557,7 @@ fn cones_and_spheres_by_hand() {
         text.replace(profile_of_sphere, profile).replace(flat, &flat.replace(">11<", ">22<"));
     let (found, _) = drafted(&flat);
     assert!(is_left_out(&found, "101", "flatness is not asked of a sphere"));
-    assert_eq!((found.features(), found.characteristics()), (8, 13));
+    assert_eq!((found.features(), found.characteristics()), (9, 16));
     assert!(found.text().contains("parallelism = \"20 um\"\nof = \"face_14\"\ndatum = \"A\""));
     assert!(found.text().contains("position = \"20 um\"\nof = \"bore_15\"\ndatum = \"A|B|C\""));
 }

@@ -110,6 +110,8 @@ fn kind_of(stem: &str) -> Option<Kind> {
         "Circularity" => Kind::Roundness,
         "Cylindricity" => Kind::Cylindricity,
         "Diameter" => Kind::Diameter,
+        "Width" => Kind::Width,
+        "Symmetry" => Kind::Symmetry,
         "SurfaceProfile" => Kind::Profile,
         "LineProfile" => Kind::LineProfile,
         "Angularity" => Kind::Angularity,
@@ -187,7 +189,7 @@ pub(super) fn read<'d>(
         _ => kind,
     };
     let limits = match kind {
-        Kind::Diameter => size(units, nominal, definition)?,
+        Kind::Diameter | Kind::Width => size(units, nominal, definition)?,
         _ => match units.positive_of(definition, "ToleranceValue", In::Drawing)? {
             Some(tolerance_mm) => Limits::Zone { tolerance_mm },
             None => return Err(Reason::plain("its definition has no tolerance value")),
@@ -261,10 +263,10 @@ impl Demand {
             Kind::Position if of.has_axis() => Zone::Diameter,
             Kind::Position => Zone::Width,
             _ if !kind.is_oriented() => return Ok(()),
-            _ if of.is_plane() => Zone::Width,
+            _ if of.is_flat() => Zone::Width,
             // Of an axis a cylinder, unless one plane alone fixes one direction of it only.
-            Kind::Parallelism if datums.len() == 1 && datums[0].is_plane() => Zone::Width,
-            Kind::Perpendicularity if datums.len() == 1 && !datums[0].is_plane() => Zone::Width,
+            Kind::Parallelism if datums.len() == 1 && datums[0].is_flat() => Zone::Width,
+            Kind::Perpendicularity if datums.len() == 1 && !datums[0].is_flat() => Zone::Width,
             _ => Zone::Diameter,
         };
         match self.zone {
@@ -286,11 +288,15 @@ impl Demand {
             return Ok((self.limits.clone(), None));
         };
         let own_mm = match of {
-            Form::Cylinder { diameter_mm, .. } => *diameter_mm,
+            Form::Cylinder { diameter_mm, .. } if self.kind == Kind::Diameter => *diameter_mm,
+            Form::Slot { width_mm, .. } if self.kind == Kind::Width => *width_mm,
+            _ if self.kind == Kind::Width => {
+                return Err(Reason::plain("a width is evaluated of opposite parallel planes only"));
+            }
             _ => return Err(Reason::plain("a diameter is evaluated of a cylinder only")),
         };
         let Some(own_mm) = own_mm else {
-            return Err(Reason::plain("the file does not state the diameter of its feature"));
+            return Err(Reason::plain("the file does not state the size of its feature"));
         };
         let target_mm = target_mm.unwrap_or(own_mm);
         if (target_mm - own_mm).abs() > OTHER_SIZE * own_mm {

@@ -2,6 +2,7 @@
 
 mod plane;
 mod round;
+mod slot;
 
 use super::document::{Reader, Reason, child, in_words, listed, name, text_of};
 use super::topology::Face;
@@ -43,6 +44,14 @@ pub(super) enum Form {
         diameter_mm: Option<f64>,
         opening_rad: Option<f64>,
     },
+    Slot {
+        is_hole: bool,
+        at_mm: Vec3,
+        across: Vec3,
+        along: Option<Vec3>,
+        width_mm: Option<f64>,
+        size_mm: Option<[f64; 2]>,
+    },
 }
 
 /// Where a plane is not.
@@ -60,8 +69,9 @@ pub(super) type Single<'d, 't> = (Node<'d, 't>, Option<String>);
 pub(super) type Read = (Form, Vec<String>);
 
 impl Form {
-    pub fn is_plane(&self) -> bool {
-        matches!(self, Self::Plane { .. })
+    /// A plane, or two with one in their middle.
+    pub fn is_flat(&self) -> bool {
+        matches!(self, Self::Plane { .. } | Self::Slot { .. })
     }
 
     pub fn has_axis(&self) -> bool {
@@ -73,6 +83,7 @@ impl Form {
         match self {
             Self::Cylinder { axis, .. } | Self::Cone { axis, .. } => Some(*axis),
             Self::Plane { normal, along, .. } => Some(normal.as_ref()?.cross(along.as_ref()?)),
+            Self::Slot { across, along, .. } => Some(across.cross(along.as_ref()?)),
             Self::Sphere { .. } => None,
         }
     }
@@ -86,7 +97,8 @@ pub(super) fn stem<'d>(node: Node<'d, '_>) -> &'d str {
 /// Why a feature of its kind is not in a part file.
 pub(super) fn unfit(node: Node<'_, '_>) -> Option<Reason> {
     let kind = stem(node);
-    let is_known = ["Plane", "Cylinder", "Cone", "Sphere"].contains(&kind);
+    let is_known =
+        ["Plane", "Cylinder", "Cone", "Sphere", "OppositeParallelPlanes"].contains(&kind);
     let message = format!("a feature `{}` is no shape of a part file", in_words(kind));
     (!is_known).then(|| Reason::plain(message))
 }
@@ -102,6 +114,7 @@ pub(super) fn read<'d>(
         "Cylinder" => round::cylinder,
         "Cone" => round::cone,
         "Sphere" => round::sphere,
+        "OppositeParallelPlanes" => slot::read,
         _ => return Err(unfit(node).unwrap_or_else(|| Reason::plain("it is not read"))),
     };
     if child(node, "Constructed").is_some() {

@@ -11,7 +11,7 @@ const HEAD: &str = "\
 # `workpiece_at` of its set-up file lies at the zero of the model.
 ";
 const DIAMETERS: &str = "\
-# Diameters are judged as those of the least-squares cylinder (GG), not between two points.
+# Diameters and widths are judged by least squares (GG), not between two points.
 ";
 
 /// So many ids stand on a line.
@@ -135,6 +135,18 @@ impl Writer {
                 let value =
                     format!("at = {at}, axis = {axis}, diameters = {diameters}, length = {length}");
                 (if *is_hole { "conical_hole" } else { "cone" }, value, Vec::new())
+            }
+            Form::Slot { is_hole, at_mm, across, along, width_mm, size_mm } => {
+                let [at, across] =
+                    [quoted(&lengths(at_mm.as_slice())), quoted(&unit_vector(across))];
+                let along =
+                    along.as_ref().map(|a| format!(", along = {}", quoted(&unit_vector(a))));
+                let width = self.value(width_mm.map(|w| lengths(&[w])), "10 mm");
+                let size = self.value(size_mm.map(|s| lengths(&s)), "10 10 mm");
+                let along = along.unwrap_or_default();
+                let value =
+                    format!("at = {at}, across = {across}{along}, width = {width}, size = {size}");
+                (if *is_hole { "slot" } else { "tongue" }, value, Vec::new())
             }
             Form::Sphere { is_hole, at_mm, axis, diameter_mm, opening_rad } => {
                 let at = quoted(&lengths(at_mm.as_slice()));

@@ -190,7 +190,7 @@ fn cylinder(unit: Unit, id: &str, definition: &str, at_mm: [f64; 3], face: &str)
 }
 
 /// What the drawing asks: kind, id, feature, frame, zone.
-const ASKED: [(&str, &str, &str, &str, &str); 14] = [
+const ASKED: [(&str, &str, &str, &str, &str); 17] = [
     ("Flatness", "101", "11", "", ""),
     ("Perpendicularity", "102", "12", "51", "PlanarZone"),
     ("Parallelism", "103", "14", "51", "PlanarZone"),
@@ -205,6 +205,9 @@ const ASKED: [(&str, &str, &str, &str, &str); 14] = [
     ("TotalRunout", "112", "16", "54", ""),
     ("Perpendicularity", "113", "15", "51", "DiametricalZone"),
     ("Diameter", "114", "15", "", ""),
+    ("Width", "115", "31", "", ""),
+    ("Straightness", "116", "16", "", "NonDiametricalZone"),
+    ("Perpendicularity", "117", "31", "51", "PlanarZone"),
 ];
 
 fn characteristics(unit: Unit) -> Element {
@@ -212,7 +215,7 @@ fn characteristics(unit: Unit) -> Element {
     for (kind, id, feature, frame, zone) in ASKED {
         let definition = format!("2{id}");
         let mut parts = match kind {
-            "Diameter" => {
+            "Diameter" | "Width" => {
                 let limits = vec![
                     t("MaxValue", &unit.length(0.025)),
                     t("MinValue", &unit.length(-0.01)),
@@ -240,8 +243,8 @@ fn characteristics(unit: Unit) -> Element {
             t("CharacteristicDefinitionId", &definition),
             ids("FeatureNominalIds", &[feature]),
         ];
-        if kind == "Diameter" {
-            parts.push(t("TargetValue", &unit.length(20.0)));
+        if let Some(size_mm) = [("Diameter", 20.0), ("Width", 6.0)].iter().find(|k| k.0 == kind) {
+            parts.push(t("TargetValue", &unit.length(size_mm.1)));
         }
         nominals.push(e(&format!("{kind}CharacteristicNominal"), parts).with("id", id));
     }
@@ -297,6 +300,21 @@ pub fn plate(unit: Unit) -> Element {
     let left = model.face(&[&left]);
     let bore = model.cylinder([40.0, 30.0], 10.0, [0.0, 15.0]);
     let counterbore = model.cylinder([40.0, 30.0], 15.0, [15.0, 20.0]);
+    // The sides of a slot of 6 mm; one is longer and deeper than the other.
+    let sides =
+        [(48.0, [10.0, 30.0], 10.0), (54.0, [12.0, 34.0], 8.0)].map(|(y, [from, to], low)| {
+            let corners = [[from, y, low], [to, y, low], [to, y, 20.0], [from, y, 20.0]];
+            let border = model.polygon(&corners, "OUTER");
+            model.face(&[&border])
+        });
+    let middle = vec![t("Point", &unit.place([20.0, 51.0, 20.0])), t("Normal", "0 1 0")];
+    let slot = vec![
+        t("Name", "slot 31"),
+        t("FeatureDefinitionId", "931"),
+        ids("EntityInternalIds", &[&sides[0], &sides[1]]),
+        e("CenterPlane", middle),
+        t("LengthVector", "1 0 0"),
+    ];
     let rectangle = vec![
         t("Length", &unit.length(40.0)),
         t("CornerPoint", &unit.place([20.0, 0.0, 0.0])),
@@ -314,6 +332,7 @@ pub fn plate(unit: Unit) -> Element {
         cylinder(unit, "15", "902", [40.0, 30.0, 15.0], &bore),
         cylinder(unit, "16", "903", [40.0, 30.0, 20.0], &counterbore),
         slope,
+        e("OppositeParallelPlanesFeatureNominal", slot).with("id", "31"),
     ];
     let round = |id: &str, mm: f64| {
         let parts = vec![t("InternalExternal", "INTERNAL"), t("Diameter", &unit.length(mm))];
@@ -323,6 +342,11 @@ pub fn plate(unit: Unit) -> Element {
         e("PlaneFeatureDefinition", vec![]).with("id", "901"),
         round("902", 20.0),
         round("903", 30.0),
+        e(
+            "OppositeParallelPlanesFeatureDefinition",
+            vec![t("InternalExternal", "INTERNAL"), t("Width", &unit.length(6.0))],
+        )
+        .with("id", "931"),
     ];
     let features = vec![e("FeatureDefinitions", definitions), e("FeatureNominals", nominals)];
     let [points, curves, vertices, edges, loops, faces] = model.sets;

@@ -187,12 +187,12 @@ impl Plane {
 }
 
 /// A direction in a plane, that of X where it can be.
-fn any_along(normal: &Vec3) -> Vec3 {
+pub(super) fn any_along(normal: &Vec3) -> Vec3 {
     let x = Vec3::x() - normal * normal.x;
     if x.norm() > 0.5 { x } else { Vec3::y() - normal * normal.y }
 }
 
-fn is_along(found: &Rectangle, along: &Vec3) -> bool {
+pub(super) fn is_along(found: &Rectangle, along: &Vec3) -> bool {
     let cosine = found.along.dot(along).abs();
     let is_across = cosine < 1e-5;
     is_across || cosine > 1.0 - 1e-10
