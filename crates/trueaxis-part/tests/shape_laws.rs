@@ -464,3 +464,24 @@ fn law_a_narrow_strip_is_a_plane() {
     let error = part.evaluate(&vec![4.0; part.points()]).expect_err("no cylinder").to_string();
     assert!(error.starts_with("cylindricity of line: "), "{error}");
 }
+
+/// Two slots as one datum, one of them 6 µm beside the other: the middle is the line through both, though the first is narrower by 20 µm in its upper
+/// half and the other by 8 µm all over: what they are narrower does not count. A slot above the second is 6 · 84.75/80 µm off at its outer end.
+#[test]
+fn law_how_narrow_slots_are_does_not_move_their_common_middle() {
+    let slot = |name: &str, x: i32, z: i32| {
+        format!(
+            "[feature.{name}]\nslot = {{ at = \"{x} 0 {z} mm\", across = \"0 1 0\", along = \"1 0 0\", width = \"12 mm\", size = \"10 10 mm\" }}\n"
+        )
+    };
+    let text = ["name = \"p\"\n", &slot("P", -40, 0), &slot("Q", 40, 0), &slot("R", 40, 30)]
+        .concat()
+        + &asked("symmetry", "R", "P-Q");
+    let by = |f: &Feature, p: &SurfacePoint| match f.name.as_str() {
+        "P" if p.point_mm.z > 0.0 => 10e-3,
+        // Material on both faces, and all of it along Y.
+        "Q" => 4e-3 + 6e-3 * p.normal.y,
+        _ => 0.0,
+    };
+    near(values(&text, &by)[0], 2.0 * 6e-3 * 84.75 / 80.0, 1e-7);
+}
