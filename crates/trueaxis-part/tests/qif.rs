@@ -244,6 +244,19 @@ fn each_thing_that_is_left_out_is_named() {
         ),
         ("Flatness", "SurfaceTexture".to_owned(), "101", "surface texture is not evaluated"),
         (
+            "<CharacteristicDefinitionId>2106</CharacteristicDefinitionId>",
+            "<CharacteristicDefinitionId>2106</CharacteristicDefinitionId><TargetValue>0.5</TargetValue>"
+                .to_owned(),
+            "106",
+            "beside the nominal surface",
+        ),
+        (
+            "SurfaceProfileCharacteristic",
+            "LineProfileCharacteristic".to_owned(),
+            "106",
+            "it has no Vector",
+        ),
+        (
             "<DiametricalZone></DiametricalZone>",
             "<SphericalZone/>".to_owned(),
             "105",
