@@ -5,8 +5,8 @@ use trueaxis_input::{Diagnostics, Files, Source};
 use trueaxis_machine::Machine;
 use trueaxis_nc::Program;
 use trueaxis_predict::predict::drawing::{
-    Deviations, Otherwise, PartPrediction, PartStudy, cut_with, predict_compensated,
-    predict_otherwise, predict_part, read_part_study,
+    DeviationSource, Deviations, PartPrediction, PartStudy, cut_with, predict_compensated,
+    predict_part, predict_with_deviations, read_part_study,
 };
 
 const STUDY: &str = "name = \"s\"\nmachine = \"m.toml\"\npart = \"p.toml\"\nprogram = \"p.nc\"\n";
@@ -696,7 +696,7 @@ fn law_drills_and_tapers_leave_their_shapes() {
 /// A machine with its own errors, or with none of them.
 struct Own(bool);
 
-impl Otherwise for Own {
+impl DeviationSource for Own {
     fn deviations<'m>(&'m self, machine: &'m Machine) -> Deviations<'m> {
         Box::new(|command, approach| {
             let errors = machine.errors_at(command, approach).ok()?;
@@ -714,10 +714,11 @@ fn law_a_control_that_removes_all_and_one_that_removes_nothing() {
     let study = study(&[("m.toml", &machine)]).unwrap_or_else(|p| panic!("{:?}", words(&p)));
     let mut problems = Diagnostics::new();
     let before = predict_part(&study, &|_| {}, &mut problems).expect("a prediction");
-    let nothing = predict_otherwise(&study, &before, &Own(true), &mut problems).expect("a part");
+    let nothing =
+        predict_with_deviations(&study, &before, &Own(true), &mut problems).expect("a part");
     assert_eq!(nothing.zero_kept.values_mm, values(&before));
     assert_eq!(nothing.zero_set.values_mm, values(&before));
-    let all = predict_otherwise(&study, &before, &Own(false), &mut problems).expect("a part");
+    let all = predict_with_deviations(&study, &before, &Own(false), &mut problems).expect("a part");
     assert_eq!(all.zero_set.values_mm, values(&predicted(&[])));
     let bore = all.zero_kept.values_mm[3];
     assert!((bore - 40e-3).abs() < 0.2e-3, "{bore}");

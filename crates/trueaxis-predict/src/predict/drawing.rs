@@ -19,7 +19,8 @@ mod study;
 
 pub use budget::{ErrorEffect, PointEffect, effects};
 pub use compensated::{
-    Compensated, CompensatedPart, Deviations, Otherwise, predict_compensated, predict_otherwise,
+    Compensated, CompensatedPart, DeviationSource, Deviations, predict_compensated,
+    predict_with_deviations,
 };
 pub use many::{Drawn, ManyParts, cut_with};
 pub use measured::Measured;

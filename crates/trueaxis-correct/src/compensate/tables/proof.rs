@@ -20,7 +20,8 @@ use trueaxis_machine::chain::{ChainBody, CommandFault};
 use trueaxis_machine::errors::{ErrorKind, ErrorName, ErrorValues};
 use trueaxis_machine::volume::commands;
 use trueaxis_predict::predict::drawing::{
-    CompensatedPart, Deviations, Otherwise, PartPrediction, PartStudy, predict_otherwise,
+    CompensatedPart, DeviationSource, Deviations, PartPrediction, PartStudy,
+    predict_with_deviations,
 };
 use trueaxis_predict::predict::{Cutting, Error, Judge, Study};
 
@@ -321,7 +322,7 @@ struct WithTables<'a> {
     content: &'a Content,
 }
 
-impl Otherwise for WithTables<'_> {
+impl DeviationSource for WithTables<'_> {
     fn deviations<'m>(&'m self, machine: &'m Machine) -> Deviations<'m> {
         let leaves = Emulation::new(machine, self.control, self.content);
         Box::new(move |command, approach| {
@@ -333,12 +334,12 @@ impl Otherwise for WithTables<'_> {
 /// The part of a study cut with the tables in the control: the zero where it was set without them, and set again with them.
 ///
 /// # Errors
-/// As [`predict_otherwise`].
+/// As [`predict_with_deviations`].
 pub fn part_left(
     study: &PartStudy,
     prediction: &PartPrediction,
     (control, content): (&dyn Control, &Content),
     problems: &mut Diagnostics,
 ) -> Option<CompensatedPart> {
-    predict_otherwise(study, prediction, &WithTables { control, content }, problems)
+    predict_with_deviations(study, prediction, &WithTables { control, content }, problems)
 }

@@ -64,7 +64,7 @@ pub fn predict_compensated(
 pub type Deviations<'m> = Box<dyn Fn(&Command, &Approach) -> Option<[Vec3; 2]> + 'm>;
 
 /// A machine that deviates otherwise than by its errors alone, such as with tables in its control.
-pub trait Otherwise {
+pub trait DeviationSource {
     /// Deviations of the machine with a tool.
     fn deviations<'m>(&'m self, machine: &'m Machine) -> Deviations<'m>;
 }
@@ -73,25 +73,23 @@ pub trait Otherwise {
 ///
 /// # Errors
 /// As [`super::predict_part`]; that a deviation is not known.
-pub fn predict_otherwise(
+pub fn predict_with_deviations(
     study: &PartStudy,
     prediction: &PartPrediction,
-    otherwise: &dyn Otherwise,
+    source: &dyn DeviationSource,
     problems: &mut Diagnostics,
 ) -> Option<CompensatedPart> {
     let place = Place::whole(&study.path.display().to_string());
     let set_mm = match &study.setting {
         None => Some(Vec3::zeros()),
-        Some(at) => {
-            otherwise.deviations(&study.mounted)(at, &Approach::default()).map(|[tip, _]| tip)
-        }
+        Some(at) => source.deviations(&study.mounted)(at, &Approach::default()).map(|[tip, _]| tip),
     };
     let cut_from = |zero_mm: &Vec3| {
         let mut path = CutPath::new(&study.job, zero_mm);
         study.job.run(None, &mut [&mut path as &mut dyn Observer]);
         let machines = path.machines(&study.mounted);
         let moved = path.displace(&machines, |machine| {
-            let deviation = otherwise.deviations(machine);
+            let deviation = source.deviations(machine);
             move |command: &Command, approach: &Approach| deviation(command, approach).ok_or(())
         });
         moved.ok().map(|()| path)
