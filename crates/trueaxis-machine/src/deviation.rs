@@ -171,7 +171,7 @@ impl Machine {
     }
 
     /// J(q); the workpiece and the tool do not move.
-    fn nominal_joint(&self, i: usize, command: &Command) -> Link {
+    pub(crate) fn nominal_joint(&self, i: usize, command: &Command) -> Link {
         let axis = self.bodies[i].axis;
         axis.map_or(Link::identity(), |axis| nominal_motion(&self.axes[axis], command[axis]))
     }
@@ -184,7 +184,7 @@ impl Machine {
     }
 
     /// `R⁻¹ − I` of an error's rotation.
-    fn inverse_turn_minus_identity(&self, six: &SixErrors) -> Mat3 {
+    pub(crate) fn inverse_turn_minus_identity(&self, six: &SixErrors) -> Mat3 {
         let turn = six.rotation_minus_identity(self.model.rotation);
         match self.model.rotation {
             Rotation::Exact => turn.transpose(),

@@ -14,5 +14,6 @@ pub use joint::{JointErrors, JointFunction};
 pub use name::{BodyName, Component, ErrorKind, ErrorName};
 pub use spline::{Interpolation, Spline, SplineError};
 pub use stated::{Measurement, StatedError, Uncertainty};
+pub(crate) use uncertain::Effect;
 pub use uncertain::Uncertainties;
 pub use values::{BodyErrors, ErrorIndex, ErrorValues, MAX_BODIES, Rotation, SixErrors};

@@ -48,6 +48,7 @@ pub mod models;
 pub mod tcp;
 mod tool;
 pub mod twist;
+pub mod variations;
 pub mod volume;
 
 pub use chain::{ErrorFrame, ErrorModel, Machine, Squareness};

@@ -34,6 +34,18 @@ pub enum Densify {
         /// Each move at least into this number of pieces.
         least: u32,
     },
+    /// For what a tool passes through: from place to place its tip goes straight in the workpiece and its axis turns evenly. Lines of
+    /// the tip are cut only where the axis would turn otherwise; moves of the axes also where the tip goes round.
+    Tool {
+        /// Between the way of the tool and that chord, at its tip and so far up its axis, mm.
+        chord_mm: f64,
+        /// How far up the axis, mm.
+        reach_mm: f64,
+        /// Of the tool axis and of each rotary axis, rad.
+        angle_rad: f64,
+        /// The longest piece, mm.
+        spacing_mm: f64,
+    },
 }
 
 impl Default for Densify {
@@ -64,7 +76,8 @@ impl Densify {
         match *self {
             Self::Off => 1.0,
             Self::Count { spacing_mm, angle_rad }
-            | Self::Tolerance { spacing_mm, angle_rad, .. } => {
+            | Self::Tolerance { spacing_mm, angle_rad, .. }
+            | Self::Tool { spacing_mm, angle_rad, .. } => {
                 pieces(length_mm / spacing_mm).max(pieces(turned_rad / angle_rad))
             }
             Self::Places { spacing_mm, angle_rad, least, .. } => {
@@ -80,7 +93,17 @@ impl Densify {
         match *self {
             Self::Off | Self::Count { .. } => None,
             Self::Tolerance { chord_mm, angle_rad, .. } => Some((angle_rad, chord_mm)),
-            Self::Places { angle_rad, .. } => Some((angle_rad, f64::INFINITY)),
+            Self::Places { angle_rad, .. } | Self::Tool { angle_rad, .. } => {
+                Some((angle_rad, f64::INFINITY))
+            }
+        }
+    }
+
+    /// How far the tool may be from its chord, mm, and how far up its axis that counts, mm.
+    pub(super) fn limits_of_tool(&self) -> Option<[f64; 2]> {
+        match *self {
+            Self::Tool { chord_mm, reach_mm, .. } => Some([chord_mm, reach_mm]),
+            _ => None,
         }
     }
 
@@ -89,7 +112,9 @@ impl Densify {
         match *self {
             Self::Off => Some(0.005),
             Self::Count { .. } => None,
-            Self::Tolerance { chord_mm, .. } | Self::Places { chord_mm, .. } => Some(chord_mm),
+            Self::Tolerance { chord_mm, .. }
+            | Self::Places { chord_mm, .. }
+            | Self::Tool { chord_mm, .. } => Some(chord_mm),
         }
     }
 }

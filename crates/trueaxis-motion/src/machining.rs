@@ -197,9 +197,9 @@ impl Machining {
     /// Whether a path is drawn finely enough: by a tenth of what the stock resolves.
     pub fn follows(&self, densify: &Densify) -> bool {
         match *densify {
-            Densify::Tolerance { chord_mm, .. } | Densify::Places { chord_mm, .. } => {
-                chord_mm <= 0.1 * self.stock.resolution_mm()
-            }
+            Densify::Tolerance { chord_mm, .. }
+            | Densify::Places { chord_mm, .. }
+            | Densify::Tool { chord_mm, .. } => chord_mm <= 0.1 * self.stock.resolution_mm(),
             Densify::Off | Densify::Count { .. } => false,
         }
     }

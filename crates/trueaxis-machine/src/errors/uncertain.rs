@@ -6,7 +6,7 @@ use trueaxis_geometry::Vec3;
 
 /// What one standard uncertainty of one quantity does.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Effect {
+pub(crate) enum Effect {
     /// It adds to an error, mm or rad.
     Error(ErrorIndex, f64),
     /// It adds to the growth of the workpiece, mm.
@@ -42,6 +42,11 @@ impl Uncertainties {
         if u_mm != Vec3::zeros() {
             self.0.push((quantity, Effect::Workpiece(u_mm)));
         }
+    }
+
+    /// Each quantity with one of the things that it does.
+    pub(crate) fn effects(&self) -> impl Iterator<Item = (usize, &Effect)> {
+        self.0.iter().map(|(quantity, effect)| (*quantity, effect))
     }
 
     /// The errors where each quantity is `factors` standard uncertainties away from its value;

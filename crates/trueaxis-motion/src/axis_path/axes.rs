@@ -9,6 +9,7 @@ use crate::curve::Curve;
 use crate::timing::Element;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::axis::Command;
+use trueaxis_machine::errors::ErrorValues;
 use trueaxis_nc::moves::{Axis, Branch, Move};
 
 impl AxisPath<'_> {
@@ -31,12 +32,20 @@ impl AxisPath<'_> {
         let straight = matches!(curve, Curve::Line { .. });
         let scale = self.scale(curve);
         let length_mm = curve.length_mm() * scale;
+        let mut goal = end;
+        self.set_linear(&mut goal, self.in_basic(curve.at(1.0)) + offset);
+        let between = |u: f64| {
+            let mut command = between(&begin, &goal, u);
+            if !straight {
+                self.set_linear(&mut command, self.in_basic(curve.at(u)) + offset);
+            }
+            command
+        };
         let pieces = self.count(m, curve, length_mm, turned)?;
+        let pieces = self.as_the_tool_goes(m, &between, turned, pieces)?;
         let length = path_length(length_mm, turned);
         let speed = feed.along(length);
         let element = || {
-            let mut goal = end;
-            self.set_linear(&mut goal, self.in_basic(curve.at(1.0)) + offset);
             let to_axes = |v: Vec3| {
                 let mut axes = Command::default();
                 self.set_linear(&mut axes, Vec3::from(self.frame.vector(v.into())));
@@ -84,6 +93,10 @@ impl AxisPath<'_> {
         }
         let turned = self.rotary_way(&begin, &end);
         let pieces = self.bounded(m, self.densify.count(0.0, turned))?;
+        let pieces = match keep_tip {
+            true => pieces,
+            false => self.as_the_tool_goes(m, &|u| between(&begin, &end, u), turned, pieces)?,
+        };
         let length = turned.to_degrees();
         let element = || {
             if !keep_tip {
@@ -127,6 +140,7 @@ impl AxisPath<'_> {
         let length = path_length(length_mm, turned);
         no_farther_than_a_hall(m, length_mm)?;
         let pieces = self.bounded(m, self.densify.count(length_mm, turned))?;
+        let pieces = self.as_the_tool_goes(m, &|u| between(&begin, &end, u), turned, pieces)?;
         let speed = feed.along(length);
         self.announce(length, || Some(Element::straight(&begin, &end, length)), out);
         for k in 1..=pieces {
@@ -140,4 +154,45 @@ impl AxisPath<'_> {
         self.reread();
         Ok(())
     }
+
+    /// So many pieces, or more: where rotary axes turn, straight moves of the axes lead the tool round.
+    fn as_the_tool_goes(
+        &self,
+        m: &Move,
+        at: &dyn Fn(f64) -> Command,
+        turned: f64,
+        pieces: u32,
+    ) -> Result<u32, Fault> {
+        let Some([chord_mm, reach_mm]) = self.densify.limits_of_tool().filter(|_| turned > 0.0)
+        else {
+            return Ok(pieces);
+        };
+        let tool = |u: f64| {
+            let pose = self.machine.pose(&at(u), &ErrorValues::default());
+            let tip = pose.linear() * self.tip_mm() + pose.shift_mm();
+            [tip, tip + pose.linear() * Vec3::z() * reach_mm]
+        };
+        // The way bends evenly enough for three of its pieces to speak for all.
+        let bow = |k: u32| {
+            let [a, b] = [k, k + 1].map(|k| fraction(k, pieces));
+            let [from, to, middle] = [a, b, 0.5 * (a + b)].map(tool);
+            let off = [0, 1].map(|i| (middle[i] - 0.5 * (from[i] + to[i])).norm());
+            off[0].max(off[1])
+        };
+        let most_mm = [0, pieces / 2, pieces - 1].map(bow).into_iter().fold(0.0, f64::max);
+        let finer = (most_mm / chord_mm).sqrt().max(1.0);
+        self.bounded(m, (f64::from(pieces) * finer).ceil())
+    }
+
+    /// The tip in the frame of the tool, by the length that the control counts with.
+    fn tip_mm(&self) -> Vec3 {
+        match self.lengths_known {
+            true => -self.tool,
+            false => self.machine.tip_mm(),
+        }
+    }
+}
+
+fn between(begin: &Command, end: &Command, u: f64) -> Command {
+    std::array::from_fn(|i| begin[i] + (end[i] - begin[i]) * u)
 }

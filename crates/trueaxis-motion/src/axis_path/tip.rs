@@ -145,10 +145,18 @@ impl AxisPath<'_> {
         if axes.into_iter().any(far) {
             return Some(None);
         }
-        if chord_mm.is_infinite() {
+        let tool = self.densify.limits_of_tool();
+        if chord_mm.is_infinite() && tool.is_none() {
             return None;
         }
         let (there, at) = self.tip_pose(tip_move, middle, &self.command).ok()?;
+        if let Some([chord_mm, reach_mm]) = tool {
+            // The tip goes as programmed: only the axis may turn otherwise than evenly.
+            let axis = |command: &Command| tip_move.control.tip_and_axis(command).1;
+            let even = (axis(&self.command) + axis(end)).normalize();
+            let leaves = reach_mm * (axis(&at) - even).norm() > chord_mm;
+            return leaves.then_some(Some((there, at)));
+        }
         let between = std::array::from_fn(|i| 0.5 * (self.command[i] + end[i]));
         let tip = tip_move.control.tip_and_axis(&between).0;
         let leaves = (tip - self.place_in_workpiece(there)).norm() > chord_mm;

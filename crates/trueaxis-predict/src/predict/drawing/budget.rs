@@ -9,7 +9,7 @@ use trueaxis_cut::{Cut, Nail};
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Command};
-use trueaxis_machine::errors::{ErrorIndex, ErrorName, ErrorValues};
+use trueaxis_machine::errors::{ErrorIndex, ErrorName};
 use trueaxis_part::part;
 use trueaxis_part::tolerance::Outcome;
 
@@ -46,91 +46,75 @@ pub(super) struct Judged {
 struct Place<'a> {
     machine: &'a Machine,
     command: Command,
-    errors: ErrorValues,
-    /// Deviation of tip and axis by these errors.
-    there: [Vec3; 2],
+    approach: Approach,
     nail: &'a Nail,
     cut: &'a Cut,
-}
-
-/// Deviation of tip and axis.
-fn deviation(machine: &Machine, command: &Command, errors: &ErrorValues) -> [Vec3; 2] {
-    let there = machine.deviation(command, errors);
-    [there.tip_mm, there.axis]
-}
-
-/// By how much tip and axis are elsewhere without one error.
-fn without(
-    (machine, command, errors): (&Machine, &Command, &ErrorValues),
-    there: &[Vec3; 2],
-    index: ErrorIndex,
-) -> [Vec3; 2] {
-    let mut left = *errors;
-    left.set(index, 0.0);
-    let [tip, axis] = deviation(machine, command, &left);
-    [tip - there[0], axis - there[1]]
-}
-
-/// By how much tip and axis differ from one standard uncertainty of a quantity below to one above, for each quantity.
-fn uncertain<'a>(
-    (machine, command, errors): (&'a Machine, &'a Command, &'a ErrorValues),
-    quantities: &[String],
-) -> impl Iterator<Item = [Vec3; 2]> + use<'a> {
-    let known = machine.uncertainties_at(command, quantities);
-    (0..quantities.len()).map(move |quantity| {
-        let [high, low] = [1.0, -1.0].map(|z| known.displaced_by(errors, quantity, z));
-        if high == low {
-            return [Vec3::zeros(); 2];
-        }
-        let [tip, axis] = deviation(machine, command, &high);
-        let [low_tip, low_axis] = deviation(machine, command, &low);
-        [tip - low_tip, axis - low_axis]
-    })
 }
 
 /// The cuts of a part, and where its zero was set.
 struct Cuts<'a> {
     places: Vec<Place<'a>>,
-    zero: Option<(&'a Machine, Command, ErrorValues)>,
+    zero: Option<(&'a Machine, Command)>,
+    /// What is asked of each: the absence of these errors, and one standard uncertainty of these quantities.
+    stated: &'a [(ErrorIndex, ErrorName)],
+    quantities: &'a [String],
 }
+
+/// By how much each point shifts along its normal, mm.
+struct Shifts {
+    /// Without each error.
+    absent: Vec<Vec<f64>>,
+    /// From one standard uncertainty of each quantity below its value to one above.
+    uncertain: Vec<Vec<f64>>,
+}
+
+/// Places of one task of a thread.
+const CHUNK: usize = 512;
 
 impl Cuts<'_> {
-    /// By how much the absence of an error shifts each point along its normal, to first order: docs/model.md eq. 245.
-    fn shifts_without(&self, index: ErrorIndex) -> Vec<f64> {
-        let zero = self.zero.as_ref().map_or(Vec3::zeros(), |(machine, command, errors)| {
-            let there = deviation(machine, command, errors);
-            without((machine, command, errors), &there, index)[0]
-        });
-        let shift = |place: &Place<'_>| {
-            let [tip, axis] = without(place.stand(), &place.there, index);
-            place.cut.shift_mm(place.nail, &(tip - zero), &axis)
-        };
-        self.places.par_iter().map(shift).collect()
+    /// By how much tip and axis differ by each of what is asked, one after the other: docs/model.md eq. 335.
+    fn moved(
+        &self,
+        (machine, command, approach): (&Machine, &Command, &Approach),
+    ) -> Result<Vec<[Vec3; 2]>, String> {
+        let errors = machine.errors_at(command, approach).map_err(|e| e.to_string())?;
+        let variations = machine.variations(command, &errors);
+        let known = machine.uncertainties_at(command, self.quantities);
+        let mut moved: Vec<[Vec3; 2]> =
+            self.stated.iter().map(|(index, _)| variations.by(*index, 0.0)).collect();
+        moved.extend(variations.by_uncertainties(&known, self.quantities.len()));
+        Ok(moved)
     }
 
-    /// The same from one standard uncertainty of each quantity below to one above: quantity by quantity.
-    fn uncertain_shifts(&self, quantities: &[String]) -> Vec<Vec<f64>> {
-        let zeros: Vec<Vec3> = match &self.zero {
-            None => vec![Vec3::zeros(); quantities.len()],
-            Some((machine, command, errors)) => {
-                uncertain((machine, command, errors), quantities).map(|[tip, _]| tip).collect()
+    /// The shifts of all points, to first order: docs/model.md eq. 245.
+    fn shifts(&self) -> Result<Shifts, String> {
+        let count = self.stated.len() + self.quantities.len();
+        let zeros = match &self.zero {
+            None => vec![[Vec3::zeros(); 2]; count],
+            Some((machine, command)) => self.moved((machine, command, &Approach::default()))?,
+        };
+        let mut columns = vec![vec![0.0; self.places.len()]; count];
+        // Of each task the same stretch of all columns.
+        let mut stretches: Vec<Vec<&mut [f64]>> = Vec::new();
+        stretches.resize_with(self.places.len().div_ceil(CHUNK), || Vec::with_capacity(count));
+        for column in &mut columns {
+            for (stretch, own) in stretches.iter_mut().zip(column.chunks_mut(CHUNK)) {
+                stretch.push(own);
             }
+        }
+        let fill = |(places, stretch): (&[Place<'_>], &mut Vec<&mut [f64]>)| {
+            for (i, place) in places.iter().enumerate() {
+                let moved = self.moved((place.machine, &place.command, &place.approach))?;
+                for ((column, [tip, axis]), [zero, _]) in stretch.iter_mut().zip(moved).zip(&zeros)
+                {
+                    column[i] = place.cut.shift_mm(place.nail, &(tip - zero), &axis);
+                }
+            }
+            Ok::<(), String>(())
         };
-        let shifts = |place: &Place<'_>| {
-            let moved = uncertain(place.stand(), quantities).zip(&zeros);
-            let shift = |([tip, axis], zero): ([Vec3; 2], &Vec3)| {
-                place.cut.shift_mm(place.nail, &(tip - zero), &axis)
-            };
-            moved.map(shift).collect::<Vec<f64>>()
-        };
-        let by_place: Vec<Vec<f64>> = self.places.par_iter().map(shifts).collect();
-        (0..quantities.len()).map(|q| by_place.iter().map(|of| of[q]).collect()).collect()
-    }
-}
-
-impl Place<'_> {
-    fn stand(&self) -> (&Machine, &Command, &ErrorValues) {
-        (self.machine, &self.command, &self.errors)
+        self.places.par_chunks(CHUNK).zip(&mut stretches).try_for_each(fill)?;
+        let uncertain = columns.split_off(self.stated.len());
+        Ok(Shifts { absent: columns, uncertain })
     }
 }
 
@@ -144,26 +128,19 @@ pub(super) fn values(
     let machines = path.machines(&study.mounted);
     let place = |(nail, cut)| place(path, &machines, nail, cut);
     let places = nails.iter().zip(cuts).map(place).collect::<Result<_, String>>()?;
-    let zero = match study.setting {
-        None => None,
-        Some(command) => {
-            let errors = study.mounted.errors_at(&command, &Approach::default());
-            Some((&study.mounted, command, errors.map_err(|e| e.to_string())?))
-        }
-    };
-    let all = Cuts { places, zero };
+    let zero = study.setting.map(|command| (&study.mounted, command));
+    let (stated, quantities) =
+        (study.mounted.stated_errors(), study.mounted.uncertain_quantities());
+    let all = Cuts { places, zero, stated: &stated, quantities: &quantities };
+    let Shifts { absent, uncertain: shifts } = all.shifts()?;
     let evaluate = |deviation_mm: &[f64]| part.evaluate(deviation_mm).map_err(|e| e.to_string());
     let actual = evaluate(deviations)?;
     let nominal = evaluate(by_program)?;
     let by_points = part.by_points_mm(deviations).map_err(|e| e.to_string())?;
     let by_measuring = study.point_u_mm.map(|u_mm| measured(part, deviations, u_mm)).transpose()?;
-    let shifts = all.uncertain_shifts(&study.mounted.uncertain_quantities());
     let u_mm = propagated(part, deviations, &shifts)?;
     let drawn =
         study.sampling.map(|s| many(part, (deviations, &shifts), s, progress)).transpose()?;
-    let stated = study.mounted.stated_errors();
-    let absent: Vec<Vec<f64>> =
-        stated.par_iter().map(|(index, _)| all.shifts_without(*index)).collect();
     let without: Vec<Vec<f64>> = absent
         .par_iter()
         .map(|shifts| evaluate(&added(deviations, shifts, 1.0)))
@@ -254,9 +231,7 @@ fn place<'a>(
 ) -> Result<Place<'a>, String> {
     let (command, approach) = path.place(cut).ok_or("a cut without its step")?;
     let machine = machines.get(cut.sweep).ok_or("a cut without its tool")?;
-    let errors = machine.errors_at(&command, &approach).map_err(|e| e.to_string())?;
-    let there = deviation(machine, &command, &errors);
-    Ok(Place { machine, command, errors, there, nail, cut })
+    Ok(Place { machine, command, approach, nail, cut })
 }
 
 fn added(deviations: &[f64], shift: &[f64], factor: f64) -> Vec<f64> {

@@ -16,8 +16,9 @@ use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_motion::{Densify, Job, Options, ProgramFiles};
 use trueaxis_part::part::Part;
 
-/// Chords of circles leave 0.02 µm; errors of the machine are followed in steps of 5 mm.
-const PLACES: Densify = Densify::Tolerance { chord_mm: 2e-5, angle_rad: 0.01, spacing_mm: 5.0 };
+/// Chords leave 0.02 µm, also where the tool or the workpiece turns; errors of the machine are followed in steps of 5 mm.
+const PLACES: Densify =
+    Densify::Tool { chord_mm: 2e-5, reach_mm: 100.0, angle_rad: 0.01, spacing_mm: 5.0 };
 
 /// No measuring machine is worse. Unit: mm.
 const MOST_POINT_U_MM: f64 = 0.1;
