@@ -175,13 +175,14 @@ impl Motion {
         bound_mm: f64,
     ) -> Option<Entry> {
         let whole = [0.0, 1.0];
-        if self.pieces == 1 || self.meets_a_ball(cutter, nail, highest_mm) {
-            return self.search(cutter, nail, highest_mm, (whole, bound_mm));
-        }
-        let slack_mm = f64::from(self.slack_mm);
+        let slack_mm = f64::from(self.slack_mm).max(bound_mm);
         let middle = self.tangent(cutter, &nail.at(highest_mm), 0.5);
+        // Most motions end here.
         if middle.stays_away(nail, highest_mm, (whole, slack_mm)) {
             return None;
+        }
+        if self.pieces == 1 || self.meets_a_ball(cutter, nail, highest_mm) {
+            return self.search_from(middle, (cutter, nail, highest_mm), (whole, bound_mm));
         }
         let mut best: Option<Entry> = None;
         for k in 0..self.pieces {
@@ -212,8 +213,18 @@ impl Motion {
         highest_mm: f64,
         (stretch, slack_mm): (Stretch, f64),
     ) -> Option<Entry> {
+        let middle = self.tangent(cutter, &nail.at(highest_mm), 0.5 * (stretch[0] + stretch[1]));
+        self.search_from(middle, (cutter, nail, highest_mm), (stretch, slack_mm))
+    }
+
+    /// The same, by the tangent in the middle of the stretch at the highest place.
+    fn search_from(
+        &self,
+        middle: Tangent,
+        (cutter, nail, highest_mm): (&Cutter, &Line, f64),
+        (stretch, slack_mm): (Stretch, f64),
+    ) -> Option<Entry> {
         let mut at_mm = highest_mm;
-        let middle = self.tangent(cutter, &nail.at(at_mm), 0.5 * (stretch[0] + stretch[1]));
         if middle.stays_away(nail, highest_mm, (stretch, slack_mm)) {
             return None;
         }

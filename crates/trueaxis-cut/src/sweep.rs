@@ -20,6 +20,8 @@ const CHUNK: usize = 256;
 const MOST_TURN_RAD: f64 = 0.02;
 /// And is convex to this.
 const MOST_SLACK_MM: f64 = 5e-3;
+/// Motions that are tried one after the other beside the last one.
+const MOST_CLIMBED: usize = 12;
 /// Motions of one sweep.
 const MOST_MOTIONS: usize = 1 << 26;
 
@@ -56,6 +58,9 @@ pub enum SweepError {
 pub struct Sweep {
     cutter: Cutter,
     motions: Vec<Motion>,
+    /// The number of each motion in the order of the program, and where each of that order stands in the list.
+    numbers: Vec<u32>,
+    places: Vec<u32>,
     tree: Tree,
     bound_mm: f64,
 }
@@ -86,14 +91,24 @@ impl Sweep {
             divide(&step, i, (&cutter, bound_mm), &mut motions)?;
         }
         let pivot_mm = cutter.pivot_mm();
-        in_space(&mut motions, pivot_mm);
+        let numbers = in_space(&mut motions, pivot_mm);
+        let mut places = vec![0; numbers.len()];
+        for (place, number) in (0..).zip(&numbers) {
+            places[*number as usize] = place;
+        }
         let tree = Tree::over(&motions, pivot_mm);
-        Ok(Self { cutter, motions, tree, bound_mm })
+        Ok(Self { cutter, motions, numbers, places, tree, bound_mm })
     }
 
     /// The cutter.
     pub fn cutter(&self) -> &Cutter {
         &self.cutter
+    }
+
+    /// The motion so many after this one in the order of the program.
+    fn after(&self, motion: usize, by: i64) -> Option<usize> {
+        let number = i64::from(self.numbers[motion]) + by;
+        Some(*self.places.get(usize::try_from(number).ok()?)? as usize)
     }
 }
 
@@ -133,8 +148,9 @@ fn divide(
     Ok(())
 }
 
-/// Motions that are near each other in space come near each other in the list: by Morton's order of their pivots.
-fn in_space(motions: &mut Vec<Motion>, pivot_mm: f64) {
+/// Motions that are near each other in space come near each other in the list, by Morton's order of their pivots; which numbers they
+/// had before.
+fn in_space(motions: &mut Vec<Motion>, pivot_mm: f64) -> Vec<u32> {
     let middles: Vec<Vec3> = motions.iter().map(|p| p.middle(pivot_mm).0).collect();
     let low = middles.iter().fold(Vec3::repeat(f64::MAX), |a, b| a.inf(b));
     let high = middles.iter().fold(Vec3::repeat(f64::MIN), |a, b| a.sup(b));
@@ -143,10 +159,10 @@ fn in_space(motions: &mut Vec<Motion>, pivot_mm: f64) {
         let cell = (p - low) * (f64::from(1 << 21) - 1.0) / size;
         [0, 1, 2].map(|k| spaced(cell[k] as u64) << k).into_iter().fold(0, |a, b| a | b)
     };
-    let mut order: Vec<(u64, usize)> =
-        middles.iter().enumerate().map(|(i, p)| (key(p), i)).collect();
+    let mut order: Vec<(u64, u32)> = (0..).zip(&middles).map(|(i, p)| (key(p), i)).collect();
     order.par_sort_unstable();
-    *motions = order.into_iter().map(|(_, i)| motions[i]).collect();
+    *motions = order.iter().map(|(_, i)| motions[*i as usize]).collect();
+    order.into_iter().map(|(_, i)| i).collect()
 }
 
 /// The lowest 21 bits with two empty ones after each.
@@ -167,7 +183,7 @@ fn spaced(x: u64) -> u64 {
 /// What these sweeps leave of the nails, in the order of the nails.
 pub fn cut(sweeps: &[Sweep], nails: &[Nail]) -> Vec<Reach> {
     let chunk = |nails: &[Nail]| {
-        let mut search = Search { sweeps, found: Vec::new(), last: None };
+        let mut search = Search { sweeps, found: Vec::new(), last: None, tried: Vec::new() };
         nails.iter().map(|nail| search.reach(nail)).collect::<Vec<_>>()
     };
     nails.par_chunks(CHUNK).flat_map_iter(chunk).collect()
@@ -179,6 +195,8 @@ struct Search<'s> {
     /// Entries that are not higher than the lowest: sweep, motion.
     found: Vec<(Entry, usize, usize)>,
     last: Option<(usize, usize)>,
+    /// Motions that were tried before the tree is asked.
+    tried: Vec<(usize, usize)>,
 }
 
 impl Search<'_> {
@@ -186,15 +204,15 @@ impl Search<'_> {
         let line = Line::of(nail);
         self.found.clear();
         let mut lowest_mm = nail.above_mm;
-        let last = self.last;
-        if let Some((s, motion)) = last {
-            self.offer(&line, (s, motion), &mut lowest_mm);
+        self.tried.clear();
+        if let Some(last) = self.last {
+            self.climb_down(&line, last, &mut lowest_mm);
         }
         let sweeps = self.sweeps;
         for (s, sweep) in sweeps.iter().enumerate() {
             let from_mm = lowest_mm + EQUAL_MM;
             let mut offer = |motion: usize| {
-                if last != Some((s, motion)) {
+                if !self.tried.contains(&(s, motion)) {
                     self.offer(&line, (s, motion), &mut lowest_mm);
                 }
                 lowest_mm + EQUAL_MM
@@ -203,6 +221,28 @@ impl Search<'_> {
             sweep.tree.visit((&sweep.cutter, &line), from_mm, count, &mut offer);
         }
         self.named(nail)
+    }
+
+    /// First the motion that cut the last nail; then those before or after it, as long as they come lower.
+    fn climb_down(&mut self, line: &Line, last: (usize, usize), lowest_mm: &mut f64) {
+        self.tried.push(last);
+        self.offer(line, last, lowest_mm);
+        for by in [1, -1] {
+            let (mut next, begin_mm) = (last, *lowest_mm);
+            for _ in 0..MOST_CLIMBED {
+                let Some(motion) = self.sweeps[next.0].after(next.1, by) else { break };
+                next.1 = motion;
+                let before_mm = *lowest_mm;
+                self.tried.push(next);
+                self.offer(line, next, lowest_mm);
+                if *lowest_mm >= before_mm {
+                    break;
+                }
+            }
+            if *lowest_mm < begin_mm {
+                break;
+            }
+        }
     }
 
     fn offer(&mut self, line: &Line, (s, motion): (usize, usize), lowest_mm: &mut f64) {

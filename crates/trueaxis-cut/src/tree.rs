@@ -138,6 +138,10 @@ impl Node {
         // From the nearest point of the cutter, or the centre of its corner, to the point.
         let arm = along * (distance_mm + cutter.corner_mm());
         let nearer = arm.sup(&-self.half_mm).inf(&self.half_mm);
+        if nearer == arm {
+            // A tool of the box may be around the point: nothing is known from there.
+            return Some(first);
+        }
         let (second, ..) = self.tangent(cutter, &point, &nail.normal, nearer);
         Some(first.max(second.lowest(nail, highest_mm)?))
     }
@@ -155,16 +159,22 @@ impl Node {
         cutter.ball_mm()?;
         let arm = self.edges * (point - self.centre_mm);
         // All the way down the nail and for all tools of the node the point is below the centre of the ball.
-        let far_mm = arm.norm() + self.corner_mm;
-        let lower_mm = arm.dot(&self.upright) + self.height_mm;
+        let turned = self.sin + self.versin;
+        let deep_mm = -arm.dot(&self.upright) - self.height_mm - turned * self.corner_mm;
         if nail.normal.dot(&self.axis) < self.sin
-            || lower_mm + (self.sin + self.versin) * far_mm > 0.0
+            || deep_mm < 0.0
+            || turned * turned * arm.norm_squared() > deep_mm * deep_mm
         {
             return None;
         }
         let off = arm - arm.sup(&-self.half_mm).inf(&self.half_mm);
-        let far_mm = off.norm();
-        let slope = (self.edges.tr_mul(&off)).dot(&nail.normal) / far_mm.max(1e-12);
+        let (square, fall) = (off.norm_squared(), off.dot(&(self.edges * nail.normal)));
+        if fall < -1e-9 * cutter.corner_mm() && square > cutter.corner_mm() * cutter.corner_mm() {
+            // Outside, and it only gets farther on the way down.
+            return Some(None);
+        }
+        let far_mm = square.sqrt();
+        let slope = fall / far_mm.max(1e-12);
         let tangent = Tangent { slope, turned: 0.0, least_mm: far_mm - cutter.corner_mm() };
         Some(tangent.lowest(nail, highest_mm))
     }
