@@ -338,6 +338,9 @@ fn bad_drawings_are_refused_by_name() {
         (part("[feature.bore]\n", "[feature.bore]\nspacing = \"0.001 mm\"\n"), "too-many-points"),
         (("s.toml", format!("{STUDY}[monte_carlo]\nsamples = 1000001\n")), "too-many-samples"),
         (("s.toml", format!("{STUDY}[measurement]\npoint_u = \"2 mm\"\n")), "impossible-value"),
+        (("s.toml", format!("{STUDY}[measurement]\nscale_u = \"2 mm/m\"\n")), "impossible-value"),
+        (("s.toml", format!("{STUDY}[measurement]\nlength_u = \"0 um/m\"\n")), "impossible-value"),
+        (("s.toml", format!("{STUDY}[measurement]\n")), "missing-key"),
         (extracted("bore", "rows = 4, points = 12"), "contradiction"),
         (extracted("side", "sections = 4, points = 12"), "contradiction"),
         (extracted("side", "rows = 4, points = 12"), "contradiction"),
@@ -574,6 +577,32 @@ fn law_what_a_measuring_machine_would_find() {
         let points_mm = diameter.points_mm / 3f64.sqrt();
         assert!((diameter.combined_mm() - d.u_mm.hypot(points_mm)).abs() < 1e-12);
     }
+}
+
+/// What points have in common, by hand: all lengths 100 µm/m make 3 µm of 30 mm; each axis by itself 30 · 0.1/√2; a squareness s of the measuring
+/// machine a bore of 15 s out of round and a side 69.5 s out of square, the mean of |s| being s √(2/π).
+#[test]
+fn law_what_measured_points_have_in_common() {
+    let measured = |how: &str| {
+        let study = format!("{STUDY}[measurement]\n{how}\n");
+        let found = predicted(&[("s.toml", &study)]);
+        found.values.iter().map(|v| v.measured.expect("measured")).collect::<Vec<_>>()
+    };
+    let near = |found: f64, due: f64| assert!((found / due - 1.0).abs() < 0.11, "{found} {due}");
+    let length = measured("length_u = \"100 um/m\"");
+    near(length[1].u_mm, 3e-3);
+    assert!(length[0].mean_mm < 1e-4 && length[2].mean_mm < 1e-4, "{length:?}");
+    let scale = measured("scale_u = \"100 um/m\"");
+    near(scale[1].u_mm, 3e-3 / 2f64.sqrt());
+    let squareness = measured("squareness_u = \"100 um/m\"");
+    let mean = (2.0 / std::f64::consts::PI).sqrt();
+    near(squareness[0].mean_mm, 1.5e-3 * mean);
+    near(squareness[2].mean_mm, 6.95e-3 * mean);
+    // From the zero of the program it leans by half of two of them, over 34.75 mm in Y and 17.75 mm in Z: 2 (34.75 + 17.75) s/2.
+    near(squareness[4].mean_mm, 5.25e-3 * mean);
+    // Both together.
+    let all = measured("point_u = \"2 um\"\nlength_u = \"100 um/m\"\nscale_u = \"100 um/m\"");
+    near(all[1].u_mm, (9e-6 + 4.5e-6_f64).sqrt());
 }
 
 /// A surface that the program makes, seen through a rectangle: nought on a machine without errors, and what an error displaces it by on another.

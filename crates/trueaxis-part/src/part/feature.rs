@@ -124,12 +124,14 @@ pub struct Feature {
     pub pattern: Option<String>,
     /// Its nominal shape.
     pub geometry: Geometry,
+    /// It is the outside of a thread in the material: only its axis is judged.
+    pub is_thread: bool,
     /// Points on it with the normals out of the material.
     pub points: Vec<SurfacePoint>,
     /// Which points remain with every second row, with the other rows, with every second point of each row, and with the others; of a
     /// table with every second point and with the others.
     pub is_kept: Vec<[bool; 4]>,
-    /// Which points make a row, of what has an axis a section across it; none of a table.
+    /// Which points make a row, of what has an axis a section across it; none of a table, nor of a helix.
     pub sections: Vec<Range<usize>>,
     /// How far into the material it is looked; on a thin wall less than half of it.
     pub below_mm: f64,

@@ -23,8 +23,11 @@ use trueaxis_input::{CsvTable, Diagnostics, Dimension, Files, Item, Place, Secti
 const REACH_MM: f64 = 1.0;
 /// Rows, sections and points of each: fewer show no form.
 const LEAST_COUNT: usize = 3;
-/// The same for a surface of the program: between neighbouring tracks of the tool it is rough.
-const PROGRAMMED_MM: f64 = 0.1;
+/// A cylinder has five unknowns; points of a turn of its helix: fewer may all lie on two lines.
+const LEAST_OF_HELIX: usize = 8;
+const LEAST_OF_TURN: f64 = 3.0;
+/// The same for a surface of the program: between neighbouring tracks of the tool it is rough; and for a thread, whose core hole is not it.
+const NEAR_MM: f64 = 0.1;
 
 impl Part {
     /// A part file by its path.
@@ -121,7 +124,7 @@ fn read_feature(section: &Section<'_>, name: &str, folder: &Path) -> Option<Feat
     };
     let letter = section.text("datum").map(str::to_owned);
     let spacing = section.get("spacing").map(|item| positive(&item, "spacing"));
-    let usual_mm = if kind == "programmed" { PROGRAMMED_MM } else { REACH_MM };
+    let usual_mm = if matches!(kind, "programmed" | "thread") { NEAR_MM } else { REACH_MM };
     let reach = ["below", "above"]
         .map(|key| section.get(key).map_or(Some(usual_mm), |item| positive(&item, key)));
     // Asked for before a mistake of the shape ends the reading: else it would be called unknown.
@@ -151,6 +154,7 @@ fn read_feature(section: &Section<'_>, name: &str, folder: &Path) -> Option<Feat
         letter,
         pattern: None,
         geometry,
+        is_thread: kind == "thread",
         points,
         is_kept,
         sections,
@@ -203,6 +207,9 @@ fn read_extraction(
     let has_axis = geometry.axis().is_some();
     let (key, other) = if has_axis { ("sections", "rows") } else { ("rows", "sections") };
     item.section("extraction", |s| {
+        if let Some(turns) = s.get("helix") {
+            return read_helix(s, &turns, geometry);
+        }
         let count = |key: &str, hint: &str| {
             let item = s.require(key, hint)?;
             let count = item.count()?;
@@ -222,6 +229,32 @@ fn read_extraction(
         Some(Extraction::Grid { rows: rows?, points: points? })
     })
     .flatten()
+}
+
+/// `extraction = { helix = 5, points = 60 }`: so many turns, so many points in all.
+fn read_helix(section: &Section<'_>, turns: &Item<'_>, geometry: &Geometry) -> Option<Extraction> {
+    let hint = "a helix of five turns: extraction = { helix = 5, points = 60 }";
+    let item = section.require("points", hint)?;
+    let (points, turned) = (item.count()?, turns.number()?);
+    if !matches!(geometry, Geometry::Cylinder { .. }) {
+        let message =
+            format!("a helix on a {}: it goes around a cylinder or a hole", geometry.name());
+        turns.error("contradiction", message, "rows, or sections, with points of each");
+        return None;
+    }
+    if !(LEAST_OF_HELIX..=MOST_POINTS).contains(&points) {
+        let message = format!("{points} points: {LEAST_OF_HELIX} to {MOST_POINTS} on a helix");
+        item.error("bad-count", message, hint);
+        return None;
+    }
+    if !(turned >= 1.0 && turned * LEAST_OF_TURN <= points as f64) {
+        let message = format!(
+            "{points} points on {turned} turns: at least one turn, and three points of each"
+        );
+        turns.error("bad-count", message, hint);
+        return None;
+    }
+    Some(Extraction::Helix { turns: turned, points })
 }
 
 fn positive(item: &Item<'_>, key: &str) -> Option<f64> {

@@ -283,25 +283,38 @@ impl Surface<'_> {
         flat_mm.iter().zip(&self.feature.sections).map(centre).collect()
     }
 
-    /// What of its axis is to lie in a zone: the median line; of a projected zone both ends of the axis of the minimum zone in it, which
-    /// begins where the feature ends, or, below zero, ends where it begins.
+    /// What of its axis is to lie in a zone: the median line; of a helix, which has no sections, both ends of the axis of least squares;
+    /// of a projected zone both ends of the axis of the minimum zone in it, which begins where the feature ends, or, below zero, ends where
+    /// it begins.
     pub(super) fn axis_line(&self, projected_mm: Option<f64>) -> Result<Vec<Vec3>, Error> {
-        let Some(projected_mm) = projected_mm else { return self.median_line() };
+        let is_helix = self.feature.sections.is_empty();
+        if projected_mm.is_none() && !is_helix {
+            return self.median_line();
+        }
         let Geometry::Cylinder { at_mm, axis, length_mm, .. } = self.feature.geometry else {
-            return Err(unfit("the projected zone of what is no cylinder"));
+            return Err(unfit("the axis of what is no cylinder"));
         };
-        let found = self.element(Element::Cylinder, Criterion::MinimumZone)?.shape;
-        let from_mm = if projected_mm > 0.0 { length_mm } else { 0.0 };
+        let (criterion, [from_mm, to_mm]) = match projected_mm {
+            None => {
+                let heights = self.feature.points.iter().map(|p| (p.point_mm - at_mm).dot(&axis));
+                let ends = (f64::MAX, f64::MIN);
+                let (low, high) = heights.fold(ends, |(l, h), v| (l.min(v), h.max(v)));
+                (Criterion::LeastSquares, [low, high])
+            }
+            Some(by) if by > 0.0 => (Criterion::MinimumZone, [length_mm, length_mm + by]),
+            Some(by) => (Criterion::MinimumZone, [0.0, by]),
+        };
+        let found = self.element(Element::Cylinder, criterion)?.shape;
         let at = |height_mm: f64| {
             let arm = height_mm - (found.point_mm - at_mm).dot(&axis);
             found.point_mm + found.direction * (arm / found.direction.dot(&axis))
         };
-        Ok(vec![at(from_mm), at(from_mm + projected_mm)])
+        Ok(vec![at(from_mm), at(to_mm)])
     }
 
     /// Twice the largest distance of the median line from an axis.
     fn about_axis(&self, at: &Vec3, axis: &Vec3) -> Result<f64, Error> {
-        Ok(2.0 * farthest(&self.median_line()?, at, axis))
+        Ok(2.0 * farthest(&self.axis_line(None)?, at, axis))
     }
 
     fn straightness(&self) -> Result<f64, Error> {

@@ -23,7 +23,7 @@ pub use compensated::{
     predict_with_deviations,
 };
 pub use many::{Drawn, ManyParts, cut_with};
-pub use measured::Measured;
+pub use measured::{Measured, Measurement};
 pub use path::{CutPath, Origin};
 pub use study::{PartStudy, is_part_study, read_part_study};
 

@@ -3,7 +3,8 @@
 use super::drawing_document::extremes;
 use super::drawing_pictures::deviation_map;
 use crate::predict::drawing::{
-    CompensatedPart, CutPoint, Drawn, ManyParts, PartPrediction, PartStudy, PartValue, effects,
+    CompensatedPart, CutPoint, Drawn, ManyParts, Measurement, PartPrediction, PartStudy, PartValue,
+    effects,
 };
 use crate::predict::{Sampling, Spread};
 use trueaxis_part::part::{Characteristic, Limits};
@@ -37,8 +38,8 @@ pub fn drawing_report<'a>(study: &'a PartStudy, prediction: &'a PartPrediction) 
         Some((sampling, drawn)) => report.section(many_machines(study, sampling, drawn)),
         None => report,
     };
-    let report = match study.point_u_mm {
-        Some(u_mm) => report.section(measurement(study, prediction, u_mm)),
+    let report = match &study.measurement {
+        Some(by) => report.section(measurement(study, prediction, by)),
         None => report,
     };
     let report = match &prediction.compensated {
@@ -49,18 +50,35 @@ pub fn drawing_report<'a>(study: &'a PartStudy, prediction: &'a PartPrediction) 
 }
 
 /// The part as a measuring machine would find it.
-fn measurement<'a>(study: &PartStudy, prediction: &PartPrediction, u_mm: f64) -> Section<'a> {
+fn measurement<'a>(
+    study: &PartStudy,
+    prediction: &PartPrediction,
+    by: &Measurement,
+) -> Section<'a> {
     let mut table = Table::new(["all in µm", "value", "measured, mean", "u of the measurement"]);
     for (asked, value) in study.part.characteristics.iter().zip(&prediction.values) {
         let Some(measured) = value.measured else { continue };
         let [true_um, mean, u] = [value.value_mm, measured.mean_mm, measured.u_mm].map(um);
         table = table.row([asked.name.clone(), true_um, mean, u]);
     }
-    let note = format!(
-        "Each point of the features with u = {} µm, independent of the others: forms are found larger than they are. The u of the measurement \
-         counts in a verdict by ISO 14253-1.",
-        um(u_mm)
-    );
+    let points = (by.point_u_mm > 0.0).then(|| {
+        let u = um(by.point_u_mm);
+        format!("Each point of the features with u = {u} µm, independent of the others: forms are found larger than they are.")
+    });
+    let common = [
+        (by.length_u, "of all lengths"),
+        (by.scale_u, "of each axis of the measuring machine"),
+        (by.squareness_u_rad, "of the squareness of each two axes"),
+    ];
+    let common: Vec<String> = common
+        .into_iter()
+        .filter(|(u, _)| *u > 0.0)
+        .map(|(u, of)| format!("{} µm/m {of}", um(1e3 * u)))
+        .collect();
+    let common =
+        (!common.is_empty()).then(|| format!("In common to all points u = {}.", common.join(", ")));
+    let all = points.into_iter().chain(common).collect::<Vec<_>>().join(" ");
+    let note = format!("{all} The u of the measurement counts in a verdict by ISO 14253-1.");
     Section::new("As it would be measured").table(table.note(note))
 }
 

@@ -21,13 +21,20 @@ pub enum Extraction {
         /// Points of each.
         points: usize,
     },
+    /// So many points along a helix with so many turns, from end to end of a cylinder or a hole.
+    Helix {
+        /// Turns. Unit: 1.
+        turns: f64,
+        /// Points.
+        points: usize,
+    },
 }
 
 impl Extraction {
     fn around(self, radius_mm: f64) -> usize {
         match self {
             Self::Spacing(spacing_mm) => turns(radius_mm, spacing_mm),
-            Self::Grid { points, .. } => points,
+            Self::Grid { points, .. } | Self::Helix { points, .. } => points,
         }
     }
 
@@ -36,6 +43,7 @@ impl Extraction {
         match self {
             Self::Spacing(spacing_mm) => Along::of_at_least(least, length_mm, spacing_mm),
             Self::Grid { rows, .. } => Along::of(rows, length_mm),
+            Self::Helix { .. } => Along::of(1, length_mm),
         }
     }
 
@@ -43,7 +51,7 @@ impl Extraction {
     fn row(self, least: usize, length_mm: f64) -> Along {
         match self {
             Self::Spacing(spacing_mm) => Along::of_at_least(least, length_mm, spacing_mm),
-            Self::Grid { points, .. } => Along::of(points, length_mm),
+            Self::Grid { points, .. } | Self::Helix { points, .. } => Along::of(points, length_mm),
         }
     }
 }
@@ -105,6 +113,14 @@ impl Geometry {
     /// # Errors
     /// In words: too many points.
     pub fn sampled(&self, extraction: Extraction) -> Result<Sampled, String> {
+        if let Extraction::Helix { turns, points } = extraction
+            && (2..=MOST_POINTS).contains(&points)
+        {
+            let points = self.helix(turns, points);
+            return points
+                .map(Sampled::of_table)
+                .ok_or_else(|| format!("a {} has no helix", self.name()));
+        }
         let rows = self.rows(extraction);
         let count: usize = rows.iter().map(|row| row.count).fold(0, usize::saturating_add);
         if count > MOST_POINTS {
@@ -112,7 +128,7 @@ impl Geometry {
                 Extraction::Spacing(spacing_mm) => format!(
                     "a spacing of {spacing_mm} mm makes {count} points, at most {MOST_POINTS} are checked"
                 ),
-                Extraction::Grid { .. } => {
+                Extraction::Grid { .. } | Extraction::Helix { .. } => {
                     format!("{count} points are asked for, at most {MOST_POINTS} are checked")
                 }
             });
@@ -129,6 +145,22 @@ impl Geometry {
             sampled.sections.push(from..sampled.points.len());
         }
         Ok(sampled)
+    }
+
+    /// Points along a helix; they make no sections.
+    fn helix(&self, turns: f64, points: usize) -> Option<Vec<SurfacePoint>> {
+        let Self::Cylinder { at_mm, axis, radius_mm, length_mm, is_hole } = *self else {
+            return None;
+        };
+        let [x, y] = across(&axis);
+        let sign = if is_hole { -1.0 } else { 1.0 };
+        let along = Along::of(points, length_mm);
+        let place = |k: usize| {
+            let (s, c) = (TAU * turns * k as f64 / (points - 1) as f64).sin_cos();
+            let out = x * c + y * s;
+            point(at_mm + axis * (length_mm * along.share(k)) + out * radius_mm, out * sign)
+        };
+        Some((0..points).map(place).collect())
     }
 
     fn rows(&self, extraction: Extraction) -> Vec<Row> {

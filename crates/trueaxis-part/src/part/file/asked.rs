@@ -98,11 +98,44 @@ impl Asked<'_, '_> {
             }
         };
         if fits {
-            return Some(());
+            return self.check_points();
         }
         let shape = of.geometry.name();
         let message = format!("{} is not asked of a {shape}: `{}`", kind.name(), of.name);
         self.refuse("wrong-feature", message, "choose another feature or another characteristic")
+    }
+
+    /// A thread is judged by its axis, what needs sections is not asked of a helix.
+    fn check_points(&self) -> Option<()> {
+        let (kind, of) = (self.kind, self.of);
+        let is_of_axis =
+            kind == Kind::Position || kind == Kind::Coaxiality || kind == Kind::Straightness;
+        if of.is_thread && !(is_of_axis || kind.is_oriented()) {
+            let message = format!("{} is not asked of a thread: `{}`", kind.name(), of.name);
+            let hint = "position, coaxiality, straightness and orientation of its axis; a gauge judges its flanks";
+            return self.refuse("wrong-feature", message, hint);
+        }
+        let needs_sections = matches!(
+            kind,
+            Kind::Roundness
+                | Kind::Straightness
+                | Kind::CircularRunOut
+                | Kind::LineStraightness
+                | Kind::LineProfile
+        );
+        if needs_sections && of.geometry.axis().is_some() && of.sections.is_empty() {
+            let message = format!(
+                "{} needs sections, the points of `{}` lie on a helix",
+                kind.name(),
+                of.name
+            );
+            return self.refuse(
+                "wrong-feature",
+                message,
+                "extraction = { sections = 4, points = 12 }",
+            );
+        }
+        Some(())
     }
 
     /// A projected zone is about the axis of a cylinder, and no longer than a bolt.

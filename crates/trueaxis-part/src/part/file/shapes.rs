@@ -8,10 +8,11 @@ use trueaxis_geometry::Vec3;
 use trueaxis_input::{Dimension, Section};
 
 /// Their keys.
-pub(super) const SHAPES: [&str; 14] = [
+pub(super) const SHAPES: [&str; 15] = [
     "plane",
     "cylinder",
     "hole",
+    "thread",
     "cone",
     "conical_hole",
     "sphere",
@@ -52,7 +53,8 @@ pub(super) fn read_geometry(section: &Section<'_>, kind: &str) -> Option<Geometr
         section.require(key, hint).and_then(|i| i.direction()).map(Vec3::from)
     };
     let size = |key: &str, hint: &str| section.require(key, hint).and_then(|i| positive(&i, key));
-    let is_hole = kind.contains("hole") || kind.contains("hollow") || kind == "slot";
+    let is_hole =
+        kind.contains("hole") || kind.contains("hollow") || matches!(kind, "slot" | "thread");
     let axis_hint = "along the axis from `at` on: axis = \"0 0 1\"";
     let diameter = || size("diameter", "diameter = \"30 mm\"");
     match kind {
@@ -67,7 +69,7 @@ pub(super) fn read_geometry(section: &Section<'_>, kind: &str) -> Option<Geometr
             let depth_mm = depth?;
             Some(Geometry::Programmed { at_mm: at_mm?, normal, along, size_mm, depth_mm })
         }
-        "cylinder" | "hole" => {
+        "cylinder" | "hole" | "thread" => {
             let axis = unit("axis", axis_hint);
             let diameter = diameter();
             let length = size("length", "along the axis: length = \"20 mm\"");

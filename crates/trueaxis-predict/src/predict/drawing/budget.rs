@@ -137,7 +137,7 @@ pub(super) fn values(
     let actual = evaluate(deviations)?;
     let nominal = evaluate(by_program)?;
     let by_points = part.by_points_mm(deviations).map_err(|e| e.to_string())?;
-    let by_measuring = study.point_u_mm.map(|u_mm| measured(part, deviations, u_mm)).transpose()?;
+    let by_measuring = study.measurement.map(|by| measured(part, deviations, &by)).transpose()?;
     let u_mm = propagated(part, deviations, &shifts)?;
     let drawn =
         study.sampling.map(|s| many(part, (deviations, &shifts), s, progress)).transpose()?;

@@ -8,9 +8,10 @@ use super::super::study::{
     Decision, check_uncertainties, read_decision, read_sampling, read_setting,
 };
 use super::super::temperatures::StudyTemperatures;
+use super::measured::Measurement;
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
-use trueaxis_input::{Diagnostics, Dimension, Files, Place, Section, SourceText};
+use trueaxis_input::{Diagnostics, Files, Place, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_motion::{Densify, Job, Options, ProgramFiles};
@@ -19,9 +20,6 @@ use trueaxis_part::part::Part;
 /// Chords leave 0.02 µm, also where the tool or the workpiece turns; errors of the machine are followed in steps of 5 mm.
 const PLACES: Densify =
     Densify::Tool { chord_mm: 2e-5, reach_mm: 100.0, angle_rad: 0.01, spacing_mm: 5.0 };
-
-/// No measuring machine is worse. Unit: mm.
-const MOST_POINT_U_MM: f64 = 0.1;
 
 /// A question to the machine: which features of this part will be good?
 pub struct PartStudy {
@@ -41,8 +39,8 @@ pub struct PartStudy {
     pub setting: Option<Command>,
     /// The rule of the verdict.
     pub decision: Decision,
-    /// Standard uncertainty of a point of the machine that will measure the part, mm; none: it is not asked what that would find.
-    pub point_u_mm: Option<f64>,
+    /// The machine that will measure the part; none: it is not asked what that would find.
+    pub measurement: Option<Measurement>,
     /// How many machines are drawn; none: u is found by linear propagation alone.
     pub sampling: Option<Sampling>,
 }
@@ -94,7 +92,8 @@ fn read(root: &Section<'_>, path: &Path) -> Option<PartStudy> {
     let sampling = root
         .section("monte_carlo", |s| read_sampling(s, PartStudy::MOST_SAMPLES))
         .map_or(Some(None), |s| s.map(Some));
-    let point_u_mm = root.section("measurement", read_point_u).map_or(Some(None), |u| u.map(Some));
+    let measurement =
+        root.section("measurement", Measurement::read).map_or(Some(None), |m| m.map(Some));
     let setting = machine.as_ref().map(|machine| {
         check_uncertainties(root, decision, machine);
         root.section("setting", |s| read_setting(s, machine, &[])).flatten().unwrap_or_default()
@@ -143,22 +142,9 @@ fn read(root: &Section<'_>, path: &Path) -> Option<PartStudy> {
         setting,
         job,
         decision: decision?,
-        point_u_mm: point_u_mm?,
+        measurement: measurement?,
         sampling: sampling?.filter(|s| s.samples > 0),
     })
-}
-
-/// `[measurement]` `point_u = "1 um"`.
-fn read_point_u(section: &Section<'_>) -> Option<f64> {
-    let hint = "the standard uncertainty of a point of the measuring machine: point_u = \"1 um\"";
-    let item = section.require("point_u", hint)?;
-    let u_mm = item.quantity(Dimension::Length)?;
-    if (0.0..=MOST_POINT_U_MM).contains(&u_mm) && u_mm > 0.0 {
-        return Some(u_mm);
-    }
-    let message = format!("a point with u = {u_mm} mm");
-    item.error("impossible-value", message, "above zero and at most 0.1 mm");
-    None
 }
 
 impl PartStudy {
