@@ -179,8 +179,11 @@ impl Surface<'_> {
             };
             return Ok(*self.datum.get_or_init(|| found));
         }
+        if matches!(self.feature.geometry, Geometry::Plane { .. }) {
+            let found = self.minimum_zone()?.shape;
+            return Ok(*self.datum.get_or_init(|| found));
+        }
         let (kind, criterion) = match self.feature.geometry {
-            Geometry::Plane { .. } => (Element::Plane, Criterion::MinimumZone),
             Geometry::Cylinder { is_hole: true, .. } => {
                 (Element::Cylinder, Criterion::MaximumInscribed)
             }

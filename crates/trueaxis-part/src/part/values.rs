@@ -21,6 +21,8 @@ pub(super) struct Surface<'a> {
     pub places_mm: Vec<Vec3>,
     /// Its element as a datum, once it was asked for.
     pub datum: OnceCell<Shape>,
+    /// Its element of the minimum zone, once it was asked for.
+    pub zone: OnceCell<Reference>,
 }
 
 /// Sections across an axis, in coordinates of their planes.
@@ -58,7 +60,8 @@ impl Part {
                 rest = others;
                 let places = feature.points.iter().zip(deviation_mm);
                 let places_mm = places.map(|(p, d)| p.point_mm + p.normal * *d).collect();
-                Surface { feature, deviation_mm, places_mm, datum: OnceCell::new() }
+                let (datum, zone) = (OnceCell::new(), OnceCell::new());
+                Surface { feature, deviation_mm, places_mm, datum, zone }
             })
             .collect();
         let mut systems = Systems { features: &self.features, found: Vec::new() };
@@ -153,8 +156,7 @@ fn of_one<'p>(
     };
     let is_single = asked.datums.len() == 1;
     match asked.kind {
-        Kind::Flatness => surface.form(Element::Plane),
-        Kind::Cylindricity => surface.form(Element::Cylinder),
+        Kind::Flatness | Kind::Cylindricity => Ok(surface.minimum_zone()?.form_mm()),
         Kind::Straightness => surface.straightness(),
         Kind::LineStraightness => surface.line_straightness(),
         Kind::Roundness => surface.roundness(),
@@ -214,8 +216,18 @@ impl Surface<'_> {
         element(kind, criterion, &self.places_mm, &Known { near, ..Known::default() })
     }
 
-    fn form(&self, kind: Element) -> Result<f64, Error> {
-        Ok(self.element(kind, Criterion::MinimumZone)?.form_mm())
+    /// The plane, or the cylinder, of the minimum zone.
+    pub(super) fn minimum_zone(&self) -> Result<&Reference, Error> {
+        if let Some(found) = self.zone.get() {
+            return Ok(found);
+        }
+        let kind = match self.feature.geometry {
+            Geometry::Plane { .. } => Element::Plane,
+            Geometry::Cylinder { .. } => Element::Cylinder,
+            _ => return Err(unfit("the minimum zone of what is neither a plane nor a cylinder")),
+        };
+        let found = self.element(kind, Criterion::MinimumZone)?;
+        Ok(self.zone.get_or_init(|| found))
     }
 
     fn diameter(&self) -> Result<f64, Error> {
@@ -294,17 +306,16 @@ impl Surface<'_> {
         let Geometry::Cylinder { at_mm, axis, length_mm, .. } = self.feature.geometry else {
             return Err(unfit("the axis of what is no cylinder"));
         };
-        let (criterion, [from_mm, to_mm]) = match projected_mm {
+        let (found, [from_mm, to_mm]) = match projected_mm {
             None => {
                 let heights = self.feature.points.iter().map(|p| (p.point_mm - at_mm).dot(&axis));
                 let ends = (f64::MAX, f64::MIN);
                 let (low, high) = heights.fold(ends, |(l, h), v| (l.min(v), h.max(v)));
-                (Criterion::LeastSquares, [low, high])
+                (self.element(Element::Cylinder, Criterion::LeastSquares)?.shape, [low, high])
             }
-            Some(by) if by > 0.0 => (Criterion::MinimumZone, [length_mm, length_mm + by]),
-            Some(by) => (Criterion::MinimumZone, [0.0, by]),
+            Some(by) if by > 0.0 => (self.minimum_zone()?.shape, [length_mm, length_mm + by]),
+            Some(by) => (self.minimum_zone()?.shape, [0.0, by]),
         };
-        let found = self.element(Element::Cylinder, criterion)?.shape;
         let at = |height_mm: f64| {
             let arm = height_mm - (found.point_mm - at_mm).dot(&axis);
             found.point_mm + found.direction * (arm / found.direction.dot(&axis))
