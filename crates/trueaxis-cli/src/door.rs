@@ -1,6 +1,6 @@
 //! A question of the library as a command: read, check the outputs, compute, write, show.
 
-use crate::output::{Answer as Shown, Format, Outcome, report_and, show, tell};
+use crate::output::{Answer as Shown, Format, Outcome, report_and, show, show_by, tell};
 use crate::report_file::{unusable, write_report};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use trueaxis::files::noted_disk;
 use trueaxis::files::output::{Guard, Output, no_file_twice};
 use trueaxis::input::Diagnostics;
-use trueaxis::questions::{Answer, Content, NewFile, Question, complete, is_finite, may_put};
+use trueaxis::questions::{Answer, Content, NewFile, Question, is_finite, may_put};
 use trueaxis::report::refused_json;
 
 /// What is shown and written.
@@ -92,9 +92,9 @@ impl Door<'_> {
         }
         files.into_iter().try_for_each(write)?;
         answer.notes().iter().for_each(|note| tell(note));
-        let shown = show(&match self.format {
-            Format::Json => Shown::Json(complete(answer.document(&found), &found)),
-            Format::Text => Shown::Text(answer.text()),
+        let shown = show_by(|out| match self.format {
+            Format::Json => answer.write_json(&found, out),
+            Format::Text => answer.write_text(out),
         });
         Ok(match shown {
             Outcome::Done if failed => Outcome::Unusable,

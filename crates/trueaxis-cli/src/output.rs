@@ -48,12 +48,16 @@ pub fn finish(problems: Diagnostics, answer: Option<Answer>) -> Outcome {
 
 /// Writes the answer to standard output.
 pub fn show(answer: &Answer) -> Outcome {
-    let text = match answer {
-        Answer::Text(text) => text,
-        Answer::Json(document) => &format!("{document:#}\n"),
-    };
-    let mut stdout = std::io::stdout().lock();
-    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+    show_by(|out| match answer {
+        Answer::Text(text) => out.write_all(text.as_bytes()),
+        Answer::Json(document) => writeln!(out, "{document:#}"),
+    })
+}
+
+/// The same of what is written piece by piece.
+pub fn show_by(write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) -> Outcome {
+    let mut stdout = std::io::BufWriter::new(std::io::stdout().lock());
+    match write(&mut stdout).and_then(|()| stdout.flush()) {
         // `trueaxis … | head` closes the pipe early; that is no fault of ours.
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             tell(&format!("error[unwritable-output]: standard output: {error}"));

@@ -28,6 +28,7 @@ mod part;
 mod part_file;
 mod plan;
 mod pose;
+mod pose_table;
 mod post;
 mod predict;
 mod probe;
@@ -63,6 +64,7 @@ pub use part::{MeasurePart, PartAnswer, VerifyPart, VirtualPartAnswer, VirtualPa
 pub use part_file::{AskPart, PartFileAnswer};
 pub use plan::{PlanAnswer, PlanMeasurement};
 pub use pose::{AskPose, PoseAnswer, PoseFound, PoseInput, Positions};
+pub use pose_table::PoseTable;
 pub use post::{Post, PostAnswer, template};
 pub use predict::{Predict, PredictInput, Predicted};
 pub use probe::{IdentifyProbe, ProbeAnswer};
@@ -136,6 +138,27 @@ pub trait Answer {
     /// For the terminal.
     fn text(&self) -> String {
         self.report().text()
+    }
+
+    /// Writes it for the terminal; long tables block after block.
+    ///
+    /// # Errors
+    /// What the writer says.
+    fn write_text(&self, out: &mut dyn io::Write) -> io::Result<()> {
+        out.write_all(self.text().as_bytes())
+    }
+
+    /// Writes it as one JSON document, with what was found in the input.
+    ///
+    /// # Errors
+    /// What the writer says.
+    fn write_json(&self, problems: &Diagnostics, out: &mut dyn io::Write) -> io::Result<()> {
+        writeln!(out, "{:#}", complete(self.document(problems), problems))
+    }
+
+    /// What is looked through for figures that cannot be: the document, or of a long table the rows that have them.
+    fn examined(&self, problems: &Diagnostics) -> Value {
+        self.document(problems)
     }
 
     /// As a page that opens offline.
@@ -240,7 +263,7 @@ pub fn ask<Q: Question>(
 
 /// Whether every number of an answer is one: JSON has no other, and no user can act on it.
 pub fn is_finite(answer: &impl Answer, problems: &mut Diagnostics) -> bool {
-    let document = answer.document(problems);
+    let document = answer.examined(problems);
     warn_of_absurd(&document, problems);
     let Some(entry) = not_finite(&document) else { return true };
     let message = format!("`{entry}` of the answer is not a finite number");
@@ -265,6 +288,14 @@ fn warn_of_absurd(document: &Value, problems: &mut Diagnostics) {
     problems.warn("absurd-result", Place::whole(&place), message, hint);
 }
 
+/// Whether a figure under this key is above what is believed.
+fn is_absurd(key: &str, number: f64) -> bool {
+    let limits = BELIEVED.iter().filter(|(ending, _)| key.ends_with(ending));
+    // An uncertainty is an error too, also in mm.
+    let of_u = (key.starts_with("u_") && key.ends_with("_mm")).then_some(1e3);
+    limits.map(|(_, most)| *most).chain(of_u).any(|most| number.abs() > most)
+}
+
 /// The first figure above what is believed, with its place.
 fn absurd(value: &Value, key: &str, place: &str) -> Option<(String, f64)> {
     let inside = |key: &str, step: &str| match place {
@@ -274,11 +305,7 @@ fn absurd(value: &Value, key: &str, place: &str) -> Option<(String, f64)> {
     match value {
         Value::Number(number) => {
             let number = number.as_f64()?;
-            let limits = BELIEVED.iter().filter(|(ending, _)| key.ends_with(ending));
-            // An uncertainty is an error too, also in mm.
-            let of_u = (key.starts_with("u_") && key.ends_with("_mm")).then_some(1e3);
-            let beyond = limits.map(|(_, most)| *most).chain(of_u).any(|most| number.abs() > most);
-            beyond.then(|| (place.to_owned(), number))
+            is_absurd(key, number).then(|| (place.to_owned(), number))
         }
         Value::Array(list) => list.iter().enumerate().find_map(|(i, entry)| {
             let (key, place) = inside(key, &i.to_string());

@@ -50,7 +50,7 @@ pub use frames::{FrameEntry, frames, frames_section};
 pub use part::part_report;
 pub use part_document::VerifyPartDocument;
 pub use pose::{Bodies, Budget, PoseReport, array, bodies, budget, pose_report};
-pub use pose_document::{PoseDocument, PoseRowsDocument, pose_rows_json};
+pub use pose_document::{PoseDocument, PoseRowsDocument};
 pub use post::{PostReport, post_report};
 pub use post_document::PostDocument;
 pub use solve::solve_report;

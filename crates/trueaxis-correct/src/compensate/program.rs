@@ -92,6 +92,14 @@ impl Default for ProgramOptions {
 /// Circles may leave this share of the residual: rounding adds to it.
 const SHARE: f64 = 0.5;
 
+impl ProgramOptions {
+    /// What may be missed between the ends of blocks, tip in mm and tool axis in rad: the residual and what rounding adds.
+    fn limits_between(&self) -> [f64; 2] {
+        let rounding = self.increments.map_or([0.0; 2], |i| [i.linear_mm, i.rotary_deg]);
+        [self.residual_mm + rounding[0], self.residual_rad + 2.0 * rounding[1].to_radians()]
+    }
+}
+
 fn residual_share(options: &ProgramOptions) -> [f64; 2] {
     [SHARE * options.residual_mm, SHARE * options.residual_rad]
 }
@@ -138,6 +146,8 @@ pub struct Rewritten {
 const SPACING_MM: f64 = 5.0;
 const ANGLE_DEG: f64 = 0.6;
 const TRIES: u32 = 6;
+/// A try that leaves more than this share of what the one before left is of no use.
+const IDLE: f64 = 0.95;
 const ARCS: u32 = 2;
 
 /// Rewrites a program so that the actual tool goes where it says, and proves it by simulating the
@@ -329,16 +339,21 @@ fn tried(
     options: &ProgramOptions,
 ) -> (Option<Rewritten>, Diagnostics) {
     let mut problems = Diagnostics::new();
-    let mut best = None;
-    for attempt in 0..TRIES {
+    let mut best: Option<Rewritten> = None;
+    let mut attempt = 0;
+    while attempt < TRIES {
         let (rewritten, found) = once(machine, program, setup, options, attempt);
         problems = found;
         let Some(rewritten) = rewritten else { return (None, problems) };
         let done = rewritten.is_within(options);
+        // Finer places help no more; once more, with lines for circles.
+        let is_idle =
+            best.as_ref().is_some_and(|b| rewritten.share(options) > IDLE * b.share(options));
         best = Some(rewritten);
-        if done {
+        if done || is_idle && attempt >= ARCS {
             break;
         }
+        attempt = if is_idle { ARCS } else { attempt + 1 };
     }
     if let Some(rewritten) = &mut best {
         rewritten.unproved = rewritten.objections(program, options);
@@ -416,7 +431,8 @@ fn once(
     let written = Program::new(program.file(), text, control);
     // The middle of every block at least is examined.
     let finer = densify(options, attempt + 1, 2 * least);
-    let proof = verify::prove(machine, [program, &written], setup, &found, &numbers, finer);
+    let by = (finer, options.limits_between());
+    let proof = verify::prove(machine, [program, &written], setup, &found, &numbers, by);
     let text = written.source().to_vec();
     let unproved = Diagnostics::new();
     let rewritten = Rewritten { text, found, proof, confidence, conventions, unproved, numbers };
@@ -457,14 +473,22 @@ impl Rewritten {
 
     /// Whether the written program does what was asked for, on the way between the ends.
     fn is_within(&self, options: &ProgramOptions) -> bool {
-        let rounding = options.increments.map_or([0.0; 2], |i| [i.linear_mm, i.rotary_deg]);
         let after = &self.proof.after;
-        let turned = options.residual_rad + 2.0 * rounding[1].to_radians();
+        let [tip_mm, turned] = options.limits_between();
         // A machine that cannot turn the tool is held to a residual of its axis only where one is asked.
         let is_free = !self.found.axis_left.is_empty() && !options.residual_axis_asked;
         // NaN is not within.
-        (is_free || after.axis.value <= turned)
-            && after.tip.value <= options.residual_mm + rounding[0]
+        (is_free || after.axis.value <= turned) && after.tip.value <= tip_mm
+    }
+
+    /// What is left between the ends of blocks as a share of what may be; not a number is more than all.
+    fn share(&self, options: &ProgramOptions) -> f64 {
+        let after = &self.proof.after;
+        let [tip_mm, turned] = options.limits_between();
+        let is_free = !self.found.axis_left.is_empty() && !options.residual_axis_asked;
+        let axis = if is_free { 0.0 } else { after.axis.value / turned };
+        let share = (after.tip.value / tip_mm).max(axis);
+        if after.tip.value.is_nan() || after.axis.value.is_nan() { f64::INFINITY } else { share }
     }
 
     /// Whether the written program was proved: only then it may go to the machine.

@@ -1,16 +1,16 @@
 //! Where is the tool?
 
 use super::words::{self, argument};
-use super::{Answer, MachineChoice, Question, Tell};
-use crate::report::{self, PoseReport, array};
-use serde_json::Value;
+use super::{Answer, MachineChoice, PoseTable, Question, Tell, complete, is_absurd};
+use crate::report::{self, PoseReport};
+use serde_json::{Value, json};
+use std::io;
 use std::path::PathBuf;
 use trueaxis_input::{CsvTable, Diagnostics, Files};
 use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::describe::{axis_index, to_inner, warn_beyond_travel};
 use trueaxis_machine::errors::ErrorValues;
 use trueaxis_machine::{Deviation, Machine};
-use trueaxis_motion::POSE_COLUMNS;
 use trueaxis_report::{Report, Section, document};
 
 /// The tool at one position of the axes, or at many: nominal and actual.
@@ -40,8 +40,14 @@ pub enum Positions {
 pub struct PoseInput {
     machine: Machine,
     approach: Approach,
-    commands: Vec<Command>,
-    table: Option<CsvTable>,
+    at: Read,
+}
+
+/// One position, or those of a table.
+#[derive(Debug)]
+enum Read {
+    One(Command),
+    Table(CsvTable),
 }
 
 /// The tool at one position, or at each position of a table.
@@ -49,8 +55,8 @@ pub struct PoseInput {
 pub enum PoseAnswer {
     /// One position.
     One(Box<PoseFound>),
-    /// The headings and the numbers of a table.
-    Rows(Vec<String>, Vec<Vec<f64>>),
+    /// Many.
+    Rows(Box<PoseTable>),
 }
 
 /// A machine at one position.
@@ -73,98 +79,82 @@ impl Question for AskPose {
             Some(text) => words::approach(&machine, text, problems),
             None => Some(Approach::default()),
         };
-        let (commands, table) = match &self.at {
+        let at = match &self.at {
             Positions::One(text) => {
                 let command = words::command(&machine, "--at", text, problems)?;
                 warn_beyond_travel(&machine, &command, &argument("--at"), problems);
-                (vec![command], None)
+                Read::One(command)
             }
             Positions::File(path) => {
                 let table = words::table(files, path, "a CSV table of axis positions", problems)?;
-                let commands = commands(&machine, &table, problems)?;
-                (commands, Some(table))
+                are_axes(&machine, &table, problems)?;
+                Read::Table(table)
             }
         };
-        Some(PoseInput { machine, approach: approach?, commands, table })
+        Some(PoseInput { machine, approach: approach?, at })
     }
 
     fn answer(
         &self,
-        PoseInput { machine, approach, commands, table }: PoseInput,
+        PoseInput { machine, approach, at }: PoseInput,
         _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<PoseAnswer> {
-        let Some(table) = table else {
-            let [command] = commands[..] else { return None };
-            let place = argument("--at");
-            let found = PoseReport::at(&machine, &command, &approach, &place, problems)?;
-            let PoseReport { errors, deviation, .. } = found;
-            let with_bodies = self.bodies;
-            let found = PoseFound { machine, command, errors, deviation, with_bodies };
-            return Some(PoseAnswer::One(Box::new(found)));
+        let table = match at {
+            Read::Table(table) => PoseTable::new(&machine, approach, table),
+            Read::One(command) => {
+                let place = argument("--at");
+                let found = PoseReport::at(&machine, &command, &approach, &place, problems)?;
+                let PoseReport { errors, deviation, .. } = found;
+                let with_bodies = self.bodies;
+                let found = PoseFound { machine, command, errors, deviation, with_bodies };
+                return Some(PoseAnswer::One(Box::new(found)));
+            }
         };
-        // Every row is tried, so that all rows with problems are reported at once.
-        let mut rows = Vec::with_capacity(commands.len());
-        for (row, command) in commands.iter().enumerate() {
-            let place = table.row_place(row);
-            let found = PoseReport::at(&machine, command, &approach, &place, problems);
-            rows.extend(found.map(|found| numbers(&table, row, &found.deviation)));
+        if !table.is_sound() {
+            // Every row is tried, so that all rows with problems are reported at once.
+            for row in 0..table.table().rows() {
+                let place = table.table().row_place(row);
+                PoseReport::at(&machine, &table.command(row), &approach, &place, problems);
+            }
         }
-        let given = table.columns.into_iter().map(|c| c.name);
-        Some(PoseAnswer::Rows(given.chain(POSE_COLUMNS.map(Into::into)).collect(), rows))
+        Some(PoseAnswer::Rows(Box::new(table)))
     }
 }
 
-/// The positions of a table; none if a column is no axis.
-fn commands(
-    machine: &Machine,
-    table: &CsvTable,
-    problems: &mut Diagnostics,
-) -> Option<Vec<Command>> {
-    let mut commands = vec![Command::default(); table.rows()];
+/// Whether every column of a table is an axis; what stands outside its travel is a warning.
+fn are_axes(machine: &Machine, table: &CsvTable, problems: &mut Diagnostics) -> Option<()> {
     let mut are_axes = true;
     for column in &table.columns {
-        let Some(axis) = axis_index(machine, &column.name) else {
+        if axis_index(machine, &column.name).is_none() {
             let message = format!("the machine has no axis `{}`", column.name);
             let hint = "name each column by an axis of the machine, mm and degrees";
             problems.error("unknown-axis", column.place.clone(), message, hint);
             are_axes = false;
-            continue;
-        };
-        for (command, value) in commands.iter_mut().zip(&column.values) {
-            command[axis] = to_inner(machine, axis, *value);
         }
     }
     if !are_axes || problems.has_errors() {
         return None;
     }
-    warn_of_rows(machine, table, &commands, problems);
-    Some(commands)
+    warn_of_rows(machine, table, problems);
+    Some(())
 }
 
 /// One warning for each axis, at the first row that it concerns.
-fn warn_of_rows(
-    machine: &Machine,
-    table: &CsvTable,
-    commands: &[Command],
-    problems: &mut Diagnostics,
-) {
+fn warn_of_rows(machine: &Machine, table: &CsvTable, problems: &mut Diagnostics) {
     for (index, axis) in machine.axes().iter().enumerate() {
-        let beyond = |c: &Command| !axis.travel.contains(c[index]);
-        let Some(first) = commands.iter().position(beyond) else { continue };
-        let count = commands.iter().filter(|c| beyond(c)).count();
-        let rows = commands.len();
+        let column = table.columns.iter().find(|c| axis_index(machine, &c.name) == Some(index));
+        let beyond = |row: &usize| {
+            let value = column.map_or(0.0, |c| to_inner(machine, index, c.values[*row]));
+            !axis.travel.contains(value)
+        };
+        let rows = table.rows();
+        let Some(first) = (0..rows).find(beyond) else { continue };
+        let count = (0..rows).filter(beyond).count();
         let message = format!("{} stands outside its travel in {count} of {rows} rows", axis.name);
         let hint = "the machine cannot go there; this is the first such row";
         problems.warn("outside-travel", table.row_place(first), message, hint);
     }
-}
-
-fn numbers(table: &CsvTable, row: usize, d: &Deviation) -> Vec<f64> {
-    let given = table.columns.iter().map(|c| c.values[row] + 0.0);
-    let vectors =
-        [d.nominal_tip.vector(), d.nominal_axis.vector(), d.tip_mm * 1e3, d.axis * 1e6].map(array);
-    given.chain(vectors.into_iter().flatten()).collect()
 }
 
 impl PoseFound {
@@ -179,13 +169,22 @@ impl PoseFound {
     }
 }
 
+impl PoseAnswer {
+    /// The document `trueaxis/pose/1` of a table, with these rows.
+    fn of_rows(rows: Value) -> Value {
+        json!({ "schema": "trueaxis/pose/1", "rows": rows })
+    }
+}
+
 impl Answer for PoseAnswer {
-    fn document(&self, _: &Diagnostics) -> Value {
+    fn document(&self, problems: &Diagnostics) -> Value {
         match self {
             Self::One(found) => document(&report::PoseDocument::from(&found.shown())),
-            Self::Rows(names, rows) => {
-                let names: Vec<&str> = names.iter().map(String::as_str).collect();
-                report::pose_rows_json(&names, rows)
+            Self::Rows(_) => {
+                let mut text = Vec::new();
+                // A vector takes every byte, and what was written is JSON.
+                let _ = self.write_json(problems, &mut text);
+                serde_json::from_slice(&text).unwrap_or_default()
             }
         }
     }
@@ -193,9 +192,7 @@ impl Answer for PoseAnswer {
     fn report(&self) -> Report<'_> {
         match self {
             Self::One(found) => report::pose_report(&found.shown()),
-            Self::Rows(names, rows) => {
-                Report::new("Poses").section(Section::new("").code(words::csv(names, rows)))
-            }
+            Self::Rows(_) => Report::new("Poses").section(Section::new("").code(self.text())),
         }
     }
 
@@ -203,7 +200,37 @@ impl Answer for PoseAnswer {
     fn text(&self) -> String {
         match self {
             Self::One(_) => self.report().text(),
-            Self::Rows(names, rows) => words::csv(names, rows),
+            Self::Rows(table) => {
+                let mut text = Vec::new();
+                let _ = table.write_csv(&mut text);
+                String::from_utf8_lossy(&text).into_owned()
+            }
+        }
+    }
+
+    fn write_text(&self, out: &mut dyn io::Write) -> io::Result<()> {
+        match self {
+            Self::One(_) => out.write_all(self.text().as_bytes()),
+            Self::Rows(table) => table.write_csv(out),
+        }
+    }
+
+    fn write_json(&self, problems: &Diagnostics, out: &mut dyn io::Write) -> io::Result<()> {
+        let Self::Rows(table) = self else {
+            return writeln!(out, "{:#}", complete(self.document(problems), problems));
+        };
+        const ROWS: &str = "\"rows\": [";
+        let around = format!("{:#}", complete(Self::of_rows(json!([])), problems));
+        let (before, after) = around.split_once(ROWS).unwrap_or((&around, ""));
+        write!(out, "{before}{ROWS}")?;
+        table.write_json_rows(out)?;
+        writeln!(out, "{after}")
+    }
+
+    fn examined(&self, problems: &Diagnostics) -> Value {
+        match self {
+            Self::One(_) => self.document(problems),
+            Self::Rows(table) => Self::of_rows(Value::Object(table.first_row(is_absurd))),
         }
     }
 }

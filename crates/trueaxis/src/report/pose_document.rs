@@ -3,12 +3,11 @@
 use super::pose::{Bodies, Budget, PoseReport, array, heat_shares};
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Bed, Body, Pose};
 use trueaxis_machine::Deviation;
 use trueaxis_machine::errors::ErrorValues;
-use trueaxis_report::{Keyed, document};
+use trueaxis_report::Keyed;
 
 /// The tool at one position of the axes.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -215,11 +214,4 @@ impl From<&PoseReport<'_>> for HeatEntry {
             }),
         }
     }
-}
-
-/// The document `trueaxis/pose/1` of many positions: rows of numbers under the names of their columns.
-pub fn pose_rows_json(names: &[&str], rows: &[Vec<f64>]) -> Value {
-    let named = |row: &Vec<f64>| names.iter().copied().zip(row.iter().copied()).collect();
-    let rows = rows.iter().map(named).collect();
-    document(&PoseRowsDocument { schema: "trueaxis/pose/1", rows })
 }

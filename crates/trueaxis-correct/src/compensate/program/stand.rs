@@ -42,6 +42,26 @@ impl Stand {
         self.from(&Self { tip: chord.tip - bend * (0.5 * u * (1.0 - u)), ..chord })
     }
 
+    /// How little the axis differs from that of a place of the way whose tip is within `limit_mm`, rad; none if there is no such place.
+    ///
+    /// ```text
+    ///     a(u) = a₀ + u g,   u = −(a₀·g)/|g|² nearest to it within  |u − u_nearest| ≤ √(limit² − d²)/length      docs/model.md eq. 336
+    /// ```
+    pub fn axis_off_segment(&self, a: &Self, b: &Self, bend: &Vec3, limit_mm: f64) -> Option<f64> {
+        let way = b.tip - a.tip;
+        let length = way.norm();
+        let [tip_mm, axis_rad] = self.off_segment(a, b, bend);
+        if tip_mm > limit_mm || length < 1e-6 {
+            return (tip_mm <= limit_mm).then_some(axis_rad);
+        }
+        let nearest = ((self.tip - a.tip).dot(&way) / (length * length)).clamp(0.0, 1.0);
+        let reach = (limit_mm * limit_mm - tip_mm * tip_mm).sqrt() / length;
+        let turn = b.axis - a.axis;
+        let best = (self.axis - a.axis).dot(&turn) / turn.norm_squared().max(f64::MIN_POSITIVE);
+        let u = best.clamp((nearest - reach).max(0.0), (nearest + reach).min(1.0));
+        Some(angle(&self.axis, &a.between(b, u).axis))
+    }
+
     fn between(&self, to: &Self, u: f64) -> Self {
         let axis = self.axis + (to.axis - self.axis) * u;
         Self {

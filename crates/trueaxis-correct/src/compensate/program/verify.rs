@@ -74,19 +74,19 @@ pub struct Proof {
 /// Blocks in the list of the worst.
 const WORST: usize = 20;
 
-/// Simulates the program as it was and the one that was written.
+/// Simulates the program as it was and the one that was written; `limits` of its tip, mm, and its axis, rad, between the ends of blocks.
 pub(super) fn prove(
     machine: &Machine,
     programs: [&Program; 2],
     setup: &SetUp,
     found: &Found,
     numbers: &[u32],
-    densify: Densify,
+    (densify, limits): (Densify, [f64; 2]),
 ) -> Proof {
     let [was, is] = programs;
     let options = Options { densify, ..Options::default() };
-    let mut before = Compare::of(found, numbers, false);
-    let mut after = Compare::of(found, numbers, true);
+    let mut before = Compare::of(found, numbers, None);
+    let mut after = Compare::of(found, numbers, Some(limits));
     let mut watch = AxisWatch::on(machine);
     let (_, run) = rayon::join(
         || simulate(machine, was, setup, &options, &mut [&mut before]),
@@ -115,6 +115,8 @@ pub(super) fn prove(
 
 struct Compare<'f> {
     found: &'f Found,
+    /// Of the written program: what its tip, mm, and its axis, rad, may miss between the ends of blocks.
+    limits: Option<[f64; 2]>,
     /// The wants of each line of the simulated program: the first and how many.
     at_line: Vec<(u32, u32)>,
     line: u32,
@@ -125,12 +127,12 @@ struct Compare<'f> {
 }
 
 impl<'f> Compare<'f> {
-    fn of(found: &'f Found, numbers: &[u32], written: bool) -> Self {
+    fn of(found: &'f Found, numbers: &[u32], limits: Option<[f64; 2]>) -> Self {
         let mut at_line: Vec<(u32, u32)> = Vec::new();
         for (i, want) in found.wants.iter().enumerate() {
-            let number = match written {
-                true => numbers[want.line as usize - 1] + want.piece,
-                false => want.line,
+            let number = match limits {
+                Some(_) => numbers[want.line as usize - 1] + want.piece,
+                None => want.line,
             } as usize;
             if at_line.len() <= number {
                 at_line.resize(number + 1, (0, 0));
@@ -146,6 +148,7 @@ impl<'f> Compare<'f> {
         let rows = vec![BlockResidual::default(); numbers.len() + 1];
         Self {
             found,
+            limits,
             at_line,
             line: 0,
             ended: false,
@@ -171,14 +174,23 @@ impl<'f> Compare<'f> {
                 stands[k - 1].tip - stands[k].tip * 2.0 + stands[k + 1].tip
             }
         };
-        let each = stands.windows(2).enumerate().map(|(k, w)| {
+        let bent = |k: usize, w: &[Stand]| {
             let chord = (w[1].tip - w[0].tip).norm();
             let bend = bend(k);
             // A corner is no bend.
-            let bend = if bend.norm() <= 0.2 * chord { bend } else { Vec3::zeros() };
-            is.off_segment(&w[0], &w[1], &bend)
-        });
-        each.min_by(|a, b| a[0].total_cmp(&b[0])).unwrap_or([0.0, 0.0])
+            if bend.norm() <= 0.2 * chord { bend } else { Vec3::zeros() }
+        };
+        let pairs = || stands.windows(2).enumerate();
+        let each = pairs().map(|(k, w)| is.off_segment(&w[0], &w[1], &bent(k, w)));
+        let nearest = each.min_by(|a, b| a[0].total_cmp(&b[0])).unwrap_or([0.0, 0.0]);
+        let Some([tip_mm, _]) = self.limits.filter(|[_, axis_rad]| nearest[1] > *axis_rad) else {
+            return nearest;
+        };
+        // Where the tool turns fast a micrometre along the path is many microradians: another place within the residual of the tip.
+        let axes = pairs()
+            .filter_map(|(k, w)| is.axis_off_segment(&w[0], &w[1], &bent(k, w), tip_mm))
+            .fold(nearest[1], f64::min);
+        [nearest[0], axes]
     }
 
     fn end(&mut self, want: &Want, is: &Stand) {
