@@ -64,7 +64,7 @@ pub(super) struct Clock {
     planner: Option<Planner>,
     /// How the axes go on the present move and how long it is, and the nodes on it so far, by their
     /// distance from its begin.
-    element: Option<(Box<Element>, f64)>,
+    element: Option<(Element, f64)>,
     marks: Vec<f64>,
     /// The nodes of the present move, for the three phases.
     block: Vec<Node>,
@@ -97,7 +97,7 @@ impl Clock {
     }
 
     /// The next nodes, up to the last one of a move, lie on this element.
-    pub fn begin(&mut self, element: Box<Element>, length: f64) {
+    pub fn begin(&mut self, element: Element, length: f64) {
         if self.timing == Timing::LookAhead {
             self.element = Some((element, length));
         }
@@ -161,7 +161,7 @@ impl Clock {
             return planner.push(&timed_node, &mut out);
         };
         timed_node.length = length.max(SHORTEST);
-        planner.push_element(&timed_node, *element, &self.marks, &mut out)?;
+        planner.push_element(&timed_node, element, &self.marks, &mut out)?;
         self.marks.clear();
         Ok(())
     }

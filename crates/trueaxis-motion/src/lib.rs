@@ -52,6 +52,7 @@ pub mod timing;
 mod tool_check;
 mod tool_path;
 mod trace;
+mod walk;
 
 pub use axis_path::{Fault, Node, PathStep};
 pub use body_table::{BODY_HEADINGS, BodyTable};
@@ -82,16 +83,13 @@ pub use trace::{Trace, TracedNode, block_line, trace};
 pub use trueaxis_nc::Stop;
 
 use axis_path::AxisPath;
-use clock::Clock;
 use equipment::EquipmentWatch;
 use program::Folder;
 use std::path::Path;
 use temperatures::Present;
 pub use tool_path::STILL;
-use tool_path::{BATCH, ToolPath};
 use trueaxis_input::{Diagnostic, Diagnostics, Place};
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::Command;
 use trueaxis_machine::heat::TemperatureRun;
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::Step;
@@ -99,6 +97,7 @@ use trueaxis_nc::{
     Follower, KnownPosition, Outcome, Program, Settings, interpret_on, leaves_motion_out,
 };
 use trueaxis_report::{NamedSchema, named_schema};
+use walk::{Leader, Walk, Walked};
 
 /// The JSON Schemas of the documents of this crate, by name.
 pub fn schemas() -> Vec<NamedSchema> {
@@ -196,15 +195,12 @@ pub fn simulate(
     else {
         return Run { problems: log_problems, programs: Vec::new(), stopped: false };
     };
-    let mut walk = Walk::new(&machine, present, setup, options, observers);
-    walk.watch = Some(EquipmentWatch::new(machine.equipment(), program.dialect().control));
-    let outcome = execute_on(&machine, program, setup, &settings, &mut walk);
-    let watch = walk.watch.take();
-    let faults = walk.finish();
+    let watch = EquipmentWatch::new(machine.equipment(), program.dialect().control);
+    let walk = Walk::new(&machine, present, setup, (options, watch), observers);
+    let lead = |leader: &mut Leader<'_>| execute_on(&machine, program, setup, &settings, leader);
+    let Walked { outcome, faults, watch } = walk.along((&machine, setup, options), lead);
     let mut problems = outcome.problems;
-    if let Some(watch) = watch {
-        watch.tell_in(program, &outcome.programs, &mut problems);
-    }
+    watch.tell_in(program, &outcome.programs, &mut problems);
     problems.append(log_problems);
     setup.check_for(program, &mut problems);
     note_assumed_limits(&machine, program, &mut problems);
@@ -307,178 +303,5 @@ impl Follower for Followed<'_, '_> {
 
     fn retracted(&self) -> Option<KnownPosition> {
         self.path.retracted_now()
-    }
-}
-
-impl Follower for Walk<'_, '_> {
-    fn take(&mut self, step: Step) {
-        self.follow(&step);
-    }
-
-    fn points(&self) -> u64 {
-        self.points
-    }
-
-    fn place(&self) -> Option<KnownPosition> {
-        Some(self.path.place_now())
-    }
-
-    fn axis_positions(&self) -> Option<KnownPosition> {
-        Some(self.path.axis_positions_now())
-    }
-
-    fn retracted(&self) -> Option<KnownPosition> {
-        self.path.retracted_now()
-    }
-}
-
-/// Leads each step through path, clock and poses.
-struct Walk<'w, 'o> {
-    path: AxisPath<'w>,
-    stretch: Stretch<'w, 'o>,
-    watch: Option<EquipmentWatch>,
-    keep_going: bool,
-    points: u64,
-}
-
-impl<'w, 'o> Walk<'w, 'o> {
-    fn new(
-        machine: &'w Machine,
-        present: Present,
-        setup: &'w SetUp,
-        options: &'w Options,
-        observers: &'w mut [&'o mut dyn Observer],
-    ) -> Self {
-        let mut path = AxisPath::new(machine, setup, options.densify, options.rounding_mm);
-        if options.timing == Timing::LookAhead {
-            path = path.with_elements();
-        }
-        let start = *path.command();
-        let stretch = Stretch {
-            setup,
-            stop: &options.stop,
-            clock: Clock::new(machine, start, options.timing),
-            tool_path: ToolPath::new(present.compiled(), start),
-            present,
-            tool: 0,
-            at: start,
-            // Where the axes are before the program.
-            nodes: vec![path.start()],
-            stamps: vec![Stamp::default()],
-            observers,
-            faults: Vec::new(),
-        };
-        Self { path, stretch, watch: None, keep_going: options.keep_going, points: 0 }
-    }
-
-    fn follow(&mut self, step: &Step) {
-        let sound = self.path.faults.is_empty() && self.stretch.faults.is_empty();
-        // Without `keep_going` the first fault ends the simulation.
-        if !(self.keep_going || sound) || self.stretch.stop.is_requested() {
-            return;
-        }
-        let (stretch, points) = (&mut self.stretch, &mut self.points);
-        stretch.observers.iter_mut().for_each(|o| o.step(step));
-        self.watch.iter_mut().for_each(|watch| watch.see(step));
-        self.path.take(step, &mut |step| {
-            *points += 1;
-            stretch.take(step);
-        });
-    }
-
-    fn finish(mut self) -> Vec<Fault> {
-        self.stretch.rest();
-        let mut faults = self.path.faults;
-        faults.append(&mut self.stretch.faults);
-        faults
-    }
-}
-
-/// The stretch of the path that waits for its times and poses.
-struct Stretch<'w, 'o> {
-    present: Present,
-    setup: &'w SetUp,
-    stop: &'w Stop,
-    clock: Clock,
-    tool_path: ToolPath,
-    tool: u32,
-    /// Where the axes are.
-    at: Command,
-    nodes: Vec<Node>,
-    stamps: Vec<Stamp>,
-    observers: &'w mut [&'o mut dyn Observer],
-    faults: Vec<Fault>,
-}
-
-impl Stretch<'_, '_> {
-    fn take(&mut self, step: PathStep) {
-        match step {
-            PathStep::Element { element, length } => self.clock.begin(element, length),
-            PathStep::Abandoned => self.abandon(),
-            // A full circle ends where it began.
-            PathStep::Node(node)
-                if node.command == self.at && node.dwell_s == 0.0 && !self.clock.on_element() => {}
-            PathStep::Node(node) => {
-                let stamps = &mut self.stamps;
-                match self.clock.push(&node, &mut |stamp| stamps.push(stamp)) {
-                    Ok(()) => {
-                        self.at = node.command;
-                        self.nodes.push(node);
-                    }
-                    Err(error) => {
-                        self.abandon();
-                        self.faults.push(Fault::untimed(&node, &error));
-                    }
-                }
-                if self.stamps.len() >= BATCH {
-                    self.evaluate();
-                }
-            }
-            PathStep::Tool(number) => self.change_tool(number),
-        }
-    }
-
-    /// Nodes of a move that does not come to its end get no time.
-    fn abandon(&mut self) {
-        let left = self.clock.drop_element();
-        self.nodes.truncate(self.nodes.len().saturating_sub(left));
-    }
-
-    /// All nodes that have their time, in batches of one temperature.
-    fn evaluate(&mut self) {
-        while let Some(first) = self.stamps.first().filter(|_| !self.stop.is_requested()) {
-            match self.present.advance(first.time_s) {
-                Ok(true) => {
-                    let since_s = self.present.since_s();
-                    self.tool_path.change_temperatures(self.present.compiled(), since_s);
-                }
-                Ok(false) => {}
-                Err(message) => self.faults.push(Fault::untempered(&self.nodes[0], message)),
-            }
-            let most = self.stamps.len().min(BATCH);
-            // The first one at least: it is why the machine is as it is.
-            let count = self.present.holds(&self.stamps[1..most]) + 1;
-            let (nodes, stamps) = (&self.nodes[..count], &self.stamps[..count]);
-            let batch = self.tool_path.evaluate(self.tool, nodes, stamps, &mut self.faults);
-            self.observers.iter_mut().for_each(|o| o.path(&batch));
-            self.nodes.drain(..count);
-            self.stamps.drain(..count);
-        }
-    }
-
-    /// The axes rest while the tool is changed.
-    fn change_tool(&mut self, number: u32) {
-        self.rest();
-        self.tool = number;
-        if let Some(tool) = self.setup.tools.get(&number) {
-            self.present.change_tip(tool.tip_mm);
-            self.tool_path.change_tool(self.present.compiled());
-        }
-    }
-
-    fn rest(&mut self) {
-        let stamps = &mut self.stamps;
-        self.clock.finish(&mut |stamp| stamps.push(stamp));
-        self.evaluate();
     }
 }
