@@ -89,7 +89,7 @@ impl Machine {
             self.away_from_bed(i, command, &errors.bodies[i], [&mut tip, &mut axis]);
         }
         if self.model.rotation == Rotation::SmallAngle {
-            axis.deviation = renormalised(&axis);
+            axis.deviation = renormalised(&axis.nominal, &axis.deviation);
         }
         tip.deviation -= errors.workpiece_mm;
         Deviation {
@@ -144,7 +144,7 @@ impl Machine {
         mut travellers: [&mut Traveller; 2],
     ) {
         let body = &self.bodies[i];
-        let back = |six: &SixErrors| self.inverse_turn_minus_identity(six);
+        let back = |six: &SixErrors| inverse_turn_minus_identity(six, self.model.rotation);
         let joint = self.nominal_joint(i, command);
         for t in &mut travellers {
             t.backward(&body.placement);
@@ -182,14 +182,14 @@ impl Machine {
         let shift = turn * joint.shift_mm() + location.shift_mm();
         (!location.is_zero()).then(|| Displacement { shift, turn_minus_identity: Mat3::zeros() })
     }
+}
 
-    /// `R⁻¹ − I` of an error's rotation.
-    pub(crate) fn inverse_turn_minus_identity(&self, six: &SixErrors) -> Mat3 {
-        let turn = six.rotation_minus_identity(self.model.rotation);
-        match self.model.rotation {
-            Rotation::Exact => turn.transpose(),
-            Rotation::SmallAngle => -(inverse3(&(Mat3::identity() + turn)) * turn),
-        }
+/// `R⁻¹ − I` of an error's rotation.
+pub(crate) fn inverse_turn_minus_identity(six: &SixErrors, rotation: Rotation) -> Mat3 {
+    let turn = six.rotation_minus_identity(rotation);
+    match rotation {
+        Rotation::Exact => turn.transpose(),
+        Rotation::SmallAngle => -(inverse3(&(Mat3::identity() + turn)) * turn),
     }
 }
 
@@ -199,11 +199,10 @@ fn displacement(six: &SixErrors, turn: impl Fn(&SixErrors) -> Mat3) -> Option<Di
 }
 
 /// The deviation of a direction after the actual vector has been made a unit vector again.
-fn renormalised(direction: &Traveller) -> Vec3 {
-    let d = direction.deviation;
-    let excess = 2.0 * direction.nominal.dot(&d) + d.norm_squared();
+pub(crate) fn renormalised(nominal: &Vec3, d: &Vec3) -> Vec3 {
+    let excess = 2.0 * nominal.dot(d) + d.norm_squared();
     let norm = (1.0 + excess).sqrt();
     // 1/norm − 1 without cancellation.
     let shrink = -excess / (norm * (1.0 + norm));
-    d + (direction.nominal + d) * shrink
+    d + (nominal + d) * shrink
 }

@@ -1,4 +1,5 @@
-//! What another value of one error would change: the chain is walked once, whatever the number of errors that are asked for.
+//! One command under other errors: another value of one of them ([`Variations`]), or other values of all ([`FixedCommand`]). The chain is
+//! walked once, whatever is asked for afterwards.
 //!
 //! ```text
 //!     where the error (t, I + D) acts the tool stands at p; what follows carries it on by the linear part L
@@ -9,10 +10,12 @@
 
 use crate::axis::Command;
 use crate::chain::{Link, Machine, Step};
+use crate::deviation::{Deviation, inverse_turn_minus_identity, renormalised};
 use crate::errors::{
     BodyErrors, Effect, ErrorIndex, ErrorKind, ErrorValues, MAX_BODIES, Rotation, SixErrors,
     Uncertainties,
 };
+use trueaxis_geometry::frame::{Direction, Point};
 use trueaxis_geometry::{Mat3, Vec3};
 
 /// The tool at one command under some errors, of which one at a time may have another value.
@@ -85,17 +88,17 @@ impl Walk {
 
 impl Station {
     /// Where tip and axis are after these errors.
-    fn acted(&self, machine: &Machine, six: &SixErrors) -> [Vec3; 2] {
-        let (shift, turn) = self.displacement(machine, six);
+    fn acted(&self, rotation: Rotation, six: &SixErrors) -> [Vec3; 2] {
+        let (shift, turn) = self.displacement(rotation, six);
         let tip_mm = if self.is_back { self.tip_mm - shift } else { self.tip_mm };
         let moved = if self.is_back { tip_mm } else { tip_mm + shift };
         [moved + turn * tip_mm, self.axis + turn * self.axis]
     }
 
     /// By how much tip and axis change after it with other errors.
-    fn changed(&self, machine: &Machine, [six, other]: [&SixErrors; 2]) -> [Vec3; 2] {
-        let (shift, turn) = self.displacement(machine, six);
-        let (other_shift, other_turn) = self.displacement(machine, other);
+    fn changed(&self, rotation: Rotation, [six, other]: [&SixErrors; 2]) -> [Vec3; 2] {
+        let (shift, turn) = self.displacement(rotation, six);
+        let (other_shift, other_turn) = self.displacement(rotation, other);
         let (by, turned) = (other_shift - shift, other_turn - turn);
         let tip_mm = match self.is_back {
             false => by + turned * self.tip_mm,
@@ -105,12 +108,14 @@ impl Station {
     }
 
     /// The shift of an error, and its turn less the identity.
-    fn displacement(&self, machine: &Machine, six: &SixErrors) -> (Vec3, Mat3) {
-        let turn = six.rotation_minus_identity(machine.model().rotation);
+    fn displacement(&self, rotation: Rotation, six: &SixErrors) -> (Vec3, Mat3) {
         match self.tilted_mm {
-            Some(motion) => (turn * motion + six.shift_mm(), Mat3::zeros()),
-            None if self.is_back => (six.shift_mm(), machine.inverse_turn_minus_identity(six)),
-            None => (six.shift_mm(), turn),
+            None if self.is_back => (six.shift_mm(), inverse_turn_minus_identity(six, rotation)),
+            None => (six.shift_mm(), six.rotation_minus_identity(rotation)),
+            Some(motion) => {
+                let turn = six.rotation_minus_identity(rotation);
+                (turn * motion + six.shift_mm(), Mat3::zeros())
+            }
         }
     }
 }
@@ -122,6 +127,36 @@ impl Machine {
         command: &'m Command,
         errors: &'m ErrorValues,
     ) -> Variations<'m> {
+        let Walk { axis, mut stations, met, count, .. } = self.walked(command, errors);
+        let mut onward = Mat3::identity();
+        for slot in met[..count].iter().rev() {
+            let Some(station) = &mut stations[*slot] else { continue };
+            onward *= station.onward;
+            station.onward = onward;
+            let six = six_of(errors, *slot);
+            onward += onward * station.displacement(self.model().rotation, six).1;
+        }
+        Variations { machine: self, command, errors, stations, axis }
+    }
+
+    /// A command, to put the tool there under many sets of errors.
+    pub fn fixed_command(&self, command: &Command) -> FixedCommand {
+        let walk = self.walked(command, &ErrorValues::default());
+        let station = |slot: &usize| {
+            let station = walk.stations[*slot]?;
+            let onward = (station.onward != Mat3::identity()).then_some(station.onward);
+            Some((*slot, station, onward))
+        };
+        FixedCommand {
+            stations: walk.met[..walk.count].iter().filter_map(station).collect(),
+            rotation: self.model().rotation,
+            tip_mm: walk.tip_mm,
+            axis: walk.axis,
+        }
+    }
+
+    /// From the tool to the workpiece.
+    fn walked(&self, command: &Command, errors: &ErrorValues) -> Walk {
         let mut walk = Walk {
             tip_mm: self.tip_mm(),
             axis: Vec3::z(),
@@ -135,16 +170,7 @@ impl Machine {
         for i in (0..self.workpiece_side).rev() {
             self.vary_away_from_bed(i, command, &errors.bodies[i], &mut walk);
         }
-        let Walk { axis, mut stations, met, count, .. } = walk;
-        let mut onward = Mat3::identity();
-        for slot in met[..count].iter().rev() {
-            let Some(station) = &mut stations[*slot] else { continue };
-            onward *= station.onward;
-            station.onward = onward;
-            let six = six_of(errors, *slot);
-            onward += onward * station.displacement(self, six).1;
-        }
-        Variations { machine: self, command, errors, stations, axis }
+        walk
     }
 
     fn vary_towards_bed(&self, i: usize, command: &Command, errors: &BodyErrors, walk: &mut Walk) {
@@ -202,7 +228,50 @@ impl Machine {
             tilted_mm,
             onward: Mat3::identity(),
         };
-        walk.displace(2 * i + kind as usize, station, station.acted(self, six));
+        walk.displace(2 * i + kind as usize, station, station.acted(self.model().rotation, six));
+    }
+}
+
+/// One command of a machine: what of its chain no error changes is computed once.
+#[derive(Debug, Clone)]
+pub struct FixedCommand {
+    /// In the order from the tool to the workpiece: the number, what comes to it without errors, and the linear part to the next one, if it
+    /// is not the identity.
+    stations: Vec<(usize, Station, Option<Mat3>)>,
+    rotation: Rotation,
+    /// The nominal tool.
+    tip_mm: Vec3,
+    axis: Vec3,
+}
+
+impl FixedCommand {
+    /// The deviation of the tool under the given errors: that of [`Machine::deviation`], to rounding.
+    pub fn deviation(&self, errors: &ErrorValues) -> Deviation {
+        let (mut tip_mm, mut axis) = (Vec3::zeros(), Vec3::zeros());
+        for (slot, station, onward) in &self.stations {
+            let six = six_of(errors, *slot);
+            if !six.is_zero() {
+                let (shift, turn) = station.displacement(self.rotation, six);
+                let actual = station.tip_mm + tip_mm;
+                tip_mm += match station.is_back {
+                    false => shift + turn * actual,
+                    true => turn * (actual - shift) - shift,
+                };
+                axis += turn * (station.axis + axis);
+            }
+            if let Some(onward) = onward {
+                (tip_mm, axis) = (onward * tip_mm, onward * axis);
+            }
+        }
+        if self.rotation == Rotation::SmallAngle {
+            axis = renormalised(&self.axis, &axis);
+        }
+        Deviation {
+            nominal_tip: Point::from_vector(self.tip_mm),
+            nominal_axis: Direction::of(self.axis).unwrap_or(Direction::Z),
+            tip_mm: tip_mm - errors.workpiece_mm,
+            axis,
+        }
     }
 }
 
@@ -226,9 +295,9 @@ impl Variations<'_> {
     /// let mut errors = ErrorValues::default();
     /// errors.set(index, 10e-6);
     /// let command = [500.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-    /// // 500 mm out in X, 10 µrad of EC0Y move the tip by 5 µm in Y: without them it is back.
+    /// // At Y = 500 mm 10 µrad of EC0Y move the tip by −5 µm in X: without them it is back.
     /// let [tip_mm, _] = machine.variations(&command, &errors).by(index, 0.0);
-    /// assert!((tip_mm.y + 0.005).abs() < 1e-9, "{tip_mm}");
+    /// assert!((tip_mm.x - 0.005).abs() < 1e-9, "{tip_mm}");
     /// ```
     pub fn by(&self, index: ErrorIndex, value: f64) -> [Vec3; 2] {
         self.between(index, [self.errors.get(index), value])
@@ -243,13 +312,13 @@ impl Variations<'_> {
 
     fn change(&self, index: ErrorIndex, [from, to]: [&SixErrors; 2]) -> [Vec3; 2] {
         let Some(station) = &self.stations[slot(index)] else { return [Vec3::zeros(); 2] };
-        let [tip_mm, axis] = station.changed(self.machine, [from, to]);
+        let [tip_mm, axis] = station.changed(self.machine.model().rotation, [from, to]);
         let (tip_mm, axis) = (station.onward * tip_mm, station.onward * axis);
         match self.machine.model().rotation {
             Rotation::Exact => [tip_mm, axis],
             Rotation::SmallAngle => {
                 let stated = six_of(self.errors, slot(index));
-                let [_, begin] = station.changed(self.machine, [stated, from]);
+                let [_, begin] = station.changed(self.machine.model().rotation, [stated, from]);
                 let begin = self.axis + station.onward * begin;
                 [tip_mm, (begin + axis).normalize() - begin.normalize()]
             }

@@ -96,3 +96,24 @@ fn law_an_uncertain_quantity_moves_the_tool_as_the_whole_chain_says() {
     }
     assert!(moved > 1_000, "{moved}");
 }
+
+#[test]
+fn law_a_fixed_command_is_the_whole_chain() {
+    let mut random = Random(11);
+    for (name, machine) in under_each_model() {
+        for _ in 0..5 {
+            let command = random.command(&machine);
+            let fixed = machine.fixed_command(&command);
+            for few in [true, false] {
+                let mut errors = errors(&machine, &mut random);
+                if few {
+                    errors = errors.only(indices(&machine)[random.unit().to_bits() as usize % 9]);
+                }
+                let (found, due) = (fixed.deviation(&errors), machine.deviation(&command, &errors));
+                assert_same(&name, &[found.tip_mm, found.axis], &[due.tip_mm, due.axis]);
+                assert!((found.nominal_tip - due.nominal_tip).norm() < 1e-9);
+                assert_eq!(found.nominal_axis, due.nominal_axis);
+            }
+        }
+    }
+}

@@ -31,6 +31,8 @@ pub enum Timing {
         /// Whether the velocity changes smoothly instead of evenly.
         smooth: bool,
     },
+    /// Not at all: where places count and no time. Every stamp is zero.
+    Untimed,
 }
 
 /// Where the machine file states no limit: 30 m/min, 3 m/s², 50 m/s³; 6 rad/s (57 rpm),
@@ -121,6 +123,10 @@ impl Clock {
     /// # Errors
     /// Numbers that no path can have; the node then gets no stamp.
     pub fn push(&mut self, node: &Node, out: &mut dyn FnMut(Stamp)) -> Result<(), TimingError> {
+        if self.timing == Timing::Untimed {
+            out(Stamp::default());
+            return Ok(());
+        }
         if node.dwell_s > 0.0 {
             self.finish(out);
             self.now_s += node.dwell_s;
@@ -132,7 +138,7 @@ impl Clock {
                 let before = self.marks.last().copied().unwrap_or(0.0);
                 self.marks.push(before + node.length);
             }
-            Timing::LookAhead => self.plan(node, out)?,
+            Timing::LookAhead | Timing::Untimed => self.plan(node, out)?,
             Timing::ThreePhase { acceleration, smooth } => {
                 self.block.push(*node);
                 if node.last {

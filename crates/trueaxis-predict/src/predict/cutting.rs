@@ -7,6 +7,7 @@ use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Direction, Point};
 use trueaxis_machine::axis::{Approach, Command, MAX_AXES};
 use trueaxis_machine::errors::{ErrorValues, Uncertainties};
+use trueaxis_machine::variations::FixedCommand;
 use trueaxis_machine::{Machine, Target};
 use trueaxis_part::testpiece::{Datum, TestPiece, ToolPosition};
 
@@ -48,6 +49,8 @@ pub struct Reference {
 #[derive(Debug, Clone)]
 struct Stop {
     command: Command,
+    /// The machine there.
+    there: FixedCommand,
     approach: Approach,
     errors: ErrorValues,
     u: Uncertainties,
@@ -163,7 +166,7 @@ impl<'a> Cutting<'a> {
             if let Ok(there) = stop(machine, command, &old.approach, (&quantities, None)) {
                 *old = there;
             }
-            old.command = command;
+            (old.command, old.there) = (command, machine.fixed_command(&command));
             old.off = [
                 tip + (to.nominal_tip.vector() - from.nominal_tip.vector()),
                 axis + (to.nominal_axis.vector() - from.nominal_axis.vector()),
@@ -228,7 +231,7 @@ impl<'a> Cutting<'a> {
     /// the zero was set with the same wrong machine, so its error there is subtracted once.
     pub fn cut(&self, change: &Change<'_>, deviations_mm: &mut Vec<Vec3>) -> Datum {
         let at = |stop: &Stop| {
-            let mut off = self.machine.deviation(&stop.command, &change(&stop.errors, &stop.u));
+            let mut off = stop.there.deviation(&change(&stop.errors, &stop.u));
             off.tip_mm += stop.off[0];
             off.axis += stop.off[1];
             off
@@ -266,7 +269,8 @@ fn stop(
         .errors_at(&command, approach)
         .map_err(|source| Error::Table { position, source })?;
     let u = machine.uncertainties_at(&command, quantities);
-    Ok(Stop { command, approach: *approach, errors, u, off: [Vec3::zeros(); 2] })
+    let there = machine.fixed_command(&command);
+    Ok(Stop { command, there, approach: *approach, errors, u, off: [Vec3::zeros(); 2] })
 }
 
 /// How far the nominal tool at a stop is from a tool position.

@@ -5,7 +5,9 @@ use super::stand::Stand;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
-use trueaxis_motion::{AxisWatch, Batch, Densify, IssueList, Observer, Options, SetUp, simulate};
+use trueaxis_motion::{
+    AxisWatch, Batch, Densify, IssueList, Observer, Options, SetUp, Timing, simulate,
+};
 use trueaxis_nc::Program;
 
 /// A largest value and the line of the program as it was.
@@ -88,8 +90,10 @@ pub(super) fn prove(
     let mut before = Compare::of(found, numbers, None);
     let mut after = Compare::of(found, numbers, Some(limits));
     let mut watch = AxisWatch::on(machine);
+    // Of the program as it was places count, not times.
+    let places = Options { timing: Timing::Untimed, ..options.clone() };
     let (_, run) = rayon::join(
-        || simulate(machine, was, setup, &options, &mut [&mut before]),
+        || simulate(machine, was, setup, &places, &mut [&mut before]),
         || simulate(machine, is, setup, &options, &mut [&mut after, &mut watch]),
     );
     let mut worst = before.rows;
