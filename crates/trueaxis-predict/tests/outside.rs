@@ -1,5 +1,7 @@
 //! Programs of others as studies of parts; skipped with a message where they are not there.
 
+#![allow(clippy::print_stdout, reason = "a test that is skipped says so")]
+
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
 use trueaxis_input::Files;

@@ -481,7 +481,7 @@ impl Rewritten {
         (is_free || after.axis.value <= turned) && after.tip.value <= tip_mm
     }
 
-    /// What is left between the ends of blocks as a share of what may be; not a number is more than all.
+    /// What remains between the ends of blocks as a share of what may remain; not a number is more than all.
     fn share(&self, options: &ProgramOptions) -> f64 {
         let after = &self.proof.after;
         let [tip_mm, turned] = options.limits_between();

@@ -104,7 +104,7 @@ impl PoseTable {
         }
     }
 
-    /// Writes all rows as they are told by `text`, block after block in order.
+    /// Writes all rows by their `text`, block after block in order.
     fn write_blocks(
         &self,
         out: &mut dyn Write,
