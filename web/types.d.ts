@@ -8689,7 +8689,7 @@ export interface PartFeatureEntry {
    */
   name: string;
   /**
-   * `plane`, `cylinder`, `cone`, `sphere`, `torus`, `slot`, `tongue`, `points` or `programmed surface`.
+   * `plane`, `cylinder`, `cone`, `sphere`, `torus`, `slot`, `tongue`, `thread`, `points` or `programmed surface`.
    */
   shape: string;
   /**
@@ -10087,7 +10087,7 @@ export interface FeatureEntry {
    */
   name: string;
   /**
-   * `plane`, `cylinder`, `cone`, `sphere`, `torus`, `slot`, `tongue`, `points` or `programmed surface`.
+   * `plane`, `cylinder`, `cone`, `sphere`, `torus`, `slot`, `tongue`, `thread`, `points` or `programmed surface`.
    */
   shape: string;
   /**

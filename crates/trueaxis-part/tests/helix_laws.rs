@@ -117,6 +117,8 @@ fn law_a_thread_has_the_axis_of_its_hole() {
     let moved = |p: &SurfacePoint| p.normal.dot(&Vec3::new(3e-3, 4e-3, 0.0));
     let asked = [ASKED[0], ASKED[1], ASKED[6], "straightness = \"10 um\""];
     assert_eq!(values(&thread, &asked, &moved), values(HOLE, &asked, &moved));
+    let part = read(&thread, &asked).expect("a part");
+    assert_eq!(part.features.last().map(|f| f.shape_name()), Some("thread"));
 }
 
 #[test]

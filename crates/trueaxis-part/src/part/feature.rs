@@ -153,6 +153,11 @@ impl Feature {
         }
     }
 
+    /// Its shape in words.
+    pub fn shape_name(&self) -> &'static str {
+        if self.is_thread { "thread" } else { self.geometry.name() }
+    }
+
     /// Its letter as a datum, else its name.
     pub fn label(&self) -> &str {
         self.letter.as_deref().unwrap_or(&self.name)

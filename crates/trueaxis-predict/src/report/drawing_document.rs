@@ -147,7 +147,7 @@ pub struct ErrorEffectEntry {
 pub struct FeatureEntry<'a> {
     /// Its name.
     pub name: &'a str,
-    /// `plane`, `cylinder`, `cone`, `sphere`, `torus`, `slot`, `tongue`, `points` or `programmed surface`.
+    /// `plane`, `cylinder`, `cone`, `sphere`, `torus`, `slot`, `tongue`, `thread`, `points` or `programmed surface`.
     pub shape: &'static str,
     /// How many points it has.
     pub points: usize,
@@ -304,7 +304,7 @@ impl<'a> FeatureEntry<'a> {
         let sum: f64 = points.iter().map(|p| p.deviation_mm).sum();
         Self {
             name: &feature.name,
-            shape: feature.geometry.name(),
+            shape: feature.shape_name(),
             points: points.len(),
             spacing_mm: spacing_mm(points),
             most: PointEntry::of(most, programs),

@@ -28,7 +28,7 @@ pub struct PartFileDocument<'a> {
 pub struct PartFeatureEntry<'a> {
     /// Its name.
     pub name: &'a str,
-    /// `plane`, `cylinder`, `cone`, `sphere`, `torus`, `slot`, `tongue`, `points` or `programmed surface`.
+    /// `plane`, `cylinder`, `cone`, `sphere`, `torus`, `slot`, `tongue`, `thread`, `points` or `programmed surface`.
     pub shape: &'static str,
     /// Its letter as a datum.
     pub datum: Option<&'a str>,
@@ -89,7 +89,7 @@ impl<'a> PartFileDocument<'a> {
     pub fn of_part(part: &'a Part) -> Self {
         let feature = |f: &'a Feature| PartFeatureEntry {
             name: &f.name,
-            shape: f.geometry.name(),
+            shape: f.shape_name(),
             datum: f.letter.as_deref(),
             points: f.points.len(),
         };
@@ -142,7 +142,7 @@ impl<'a> PartFileDocument<'a> {
 pub fn part_report(part: &Part) -> Report<'_> {
     let feature = |f: &Feature| {
         let letter = f.letter.clone().unwrap_or_default();
-        [f.name.clone(), f.geometry.name().to_owned(), letter, f.points.len().to_string()]
+        [f.name.clone(), f.shape_name().to_owned(), letter, f.points.len().to_string()]
     };
     let features =
         Table::new(["feature", "shape", "datum", "points"]).rows(part.features.iter().map(feature));
