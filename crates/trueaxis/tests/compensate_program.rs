@@ -381,6 +381,36 @@ fn law_no_piece_leaves_the_residual_at_1000_places() {
 
 /// Two turns of radius 50 mm as pieces whose sagitta is the residual: π/acos(1 − ε/r) of them for a
 /// turn, 497 for 1 µm, and no place of the written program farther from the circle than 1 µm.
+/// On a small ring the tool turns by 30 µrad in each µm of its path: what rounding shifts the tip along the path is no wrong axis, however long
+/// the blocks are. Held to increments of 10 nm the axis keeps its residual at the nearest place, too.
+#[test]
+fn law_a_small_ring_is_proved_at_every_length_of_its_blocks() {
+    let machine = machine("i5-engraver");
+    let ring = |step_deg: f64| {
+        let count = (360.0 / step_deg) as usize;
+        let at = |k: usize| {
+            let angle = (k as f64 * step_deg).to_radians();
+            let (x, y, c) = (30.0 * angle.cos(), 30.0 * angle.sin(), angle.to_degrees() + 90.0);
+            format!("G1 X{x:.4} Y{y:.4} Z14. A65. C{c:.4} F1500.\n")
+        };
+        let moves: String = (0..=count).map(at).collect();
+        format!(
+            "%\nO1\nG21 G17 G40 G80 G90 G94\nG43.4 H1 Z60.\nG0 X57. Y0. Z30. A65. C90.\n{moves}G0 Z60.\nG49\nM30\n%\n"
+        )
+    };
+    let fine = Some(Increments { linear_mm: 1e-5, rotary_deg: 1e-6 });
+    for (step_deg, increments) in
+        [(0.5, ProgramOptions::default().increments), (2.0, None), (1.0, fine), (3.0, fine)]
+    {
+        let options = ProgramOptions { increments, ..ProgramOptions::default() };
+        let (done, problems) =
+            compensated(&machine, ring(step_deg).as_bytes(), Control::Fanuc, &options);
+        let done = done.unwrap_or_else(|| panic!("{step_deg}: {:?}", codes(&problems)));
+        assert!(done.is_proved(), "{step_deg} {increments:?}: {:?}", done.proof.after);
+        assert!(done.proof.before.tip_end.value > 0.01, "{:?}", done.proof.before);
+    }
+}
+
 #[test]
 fn circles_are_cut_by_their_sagitta() {
     let text = "G21 G90 G94 F1000\nG0 X50 Y0 Z-50\nG3 X50 Y0 I-50 J0\nG3 X50 Y0 I-50 J0\nM2\n";

@@ -244,3 +244,57 @@ fn swung(from: &Vec3, to: &Vec3, u: f64) -> Vec3 {
     }
     (from * ((1.0 - u) * whole).sin() + to * (u * whole).sin()) / whole.sin()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 0.3 mm of a path on which the axis turns by 9 mrad: 30 µrad in each µm.
+    fn way() -> [Stand; 2] {
+        let at = |tip: f64, turn: f64| Stand {
+            tip: Vec3::new(tip, 0.0, 0.0),
+            axis: Vec3::new(turn.sin(), 0.0, turn.cos()),
+        };
+        [at(0.0, 0.0), at(0.3, 9e-3)]
+    }
+
+    fn off(is: &Stand, limit_mm: f64) -> Option<f64> {
+        let [a, b] = way();
+        is.axis_off_segment(&a, &b, &Vec3::zeros(), limit_mm)
+    }
+
+    /// In the middle of the way, the tip shifted along it by so much and across it, the axis turned by so much and across that.
+    fn shifted(along: f64, across: f64, turn: f64, lean: f64) -> Stand {
+        let [a, b] = way();
+        let middle = a.between(&b, 0.5);
+        let axis = middle.axis + Vec3::new(turn, lean, 0.0);
+        Stand { tip: middle.tip + Vec3::new(along, across, 0.0), axis: axis.normalize() }
+    }
+
+    #[test]
+    fn law_a_tip_that_is_late_is_no_wrong_axis() {
+        // 0.8 µm along the path are 24 µrad at the nearest place, and nothing within 1 µm of the tip.
+        let late = shifted(8e-4, 0.0, 0.0, 0.0);
+        let [a, b] = way();
+        let nearest = late.off_segment(&a, &b, &Vec3::zeros());
+        assert!(nearest[0] < 1e-12 && (nearest[1] - 24e-6).abs() < 1e-7, "{nearest:?}");
+        assert!(off(&late, 1e-3).is_some_and(|axis| axis < 1e-9));
+        // Within 0.5 µm 9 µrad of them remain; 0.6 µm across the path leave 0.8 µm along it.
+        assert!(off(&late, 5e-4).is_some_and(|axis| (axis - 9e-6).abs() < 1e-7));
+        let both = shifted(8e-4, 6e-4, 0.0, 0.0);
+        assert!(off(&both, 1e-3).is_some_and(|axis| axis < 1e-7));
+        assert!(off(&both, 6.5e-4).is_some_and(|axis| (axis - 16.5e-6).abs() < 1e-7));
+        assert_eq!(off(&both, 5e-4), None);
+    }
+
+    #[test]
+    fn law_a_wrong_axis_stays_wrong() {
+        // 100 µrad in the sense of the turn: 30 of them are within 1 µm of the tip. Across the turn all of them stay.
+        assert!(
+            off(&shifted(0.0, 0.0, 1e-4, 0.0), 1e-3).is_some_and(|axis| (axis - 7e-5).abs() < 1e-6)
+        );
+        assert!(
+            off(&shifted(0.0, 0.0, 0.0, 1e-4), 1e-3).is_some_and(|axis| (axis - 1e-4).abs() < 1e-8)
+        );
+    }
+}
