@@ -434,3 +434,27 @@ fn a_move_that_is_longer_than_any_machine_is_refused_with_its_block() {
     let ran = run(&["simulate", MILL, &program, "--control", "fanuc"], &[]);
     assert!(!ran.err.contains("outside-travel"), "{}", ran.err);
 }
+
+/// What the control compensates by active tables is no error of the machine that runs; a pose shows it, and both say so.
+#[test]
+fn active_tables_are_those_of_the_machine_that_runs() {
+    let folder = Folder::new("simulate-active");
+    let text = "[machine]\nname = \"mill\"\nchain = \"w b X Y Z t\"\n[tool]\nlength = \"100 mm\"\n[location]\nEC0Y = \"100 urad\"\nEB0Z = \"0 urad\"\n";
+    let active = format!("{text}[compensation]\nactive = [\"EC0Y\"]\n");
+    let machines = [folder.file("plain.toml", text), folder.file("active.toml", active)];
+    let program = folder.file("p.nc", "G21 G90 G94\nG1 X10. Y200. F1000\nM30\n");
+    let [plain, active] = machines.each_ref().map(|machine| {
+        let ran = trueaxis(&["simulate", machine, &program, "--format", "json"]);
+        let largest = ran.json()["deviation"]["tip_um"]["value"].as_f64().expect("a number");
+        (largest, ran.err)
+    });
+    // 100 µrad over 200 mm.
+    assert!((plain.0 - 20.0).abs() < 1e-6 && !plain.1.contains("already-active"), "{plain:?}");
+    assert!(active.0 < 1e-6 && active.1.contains("simulated without EC0Y"), "{active:?}");
+    let [plain, active] = machines.each_ref().map(|machine| {
+        let ran = trueaxis(&["pose", machine, "--at", "Y=200", "--format", "json"]);
+        (ran.json()["tool"].clone(), ran.err)
+    });
+    assert_eq!(plain.0, active.0);
+    assert!(active.1.contains("shown with EC0Y") && !plain.1.contains("already-active"));
+}

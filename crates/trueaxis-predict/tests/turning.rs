@@ -29,10 +29,14 @@ fn program(moves: &str) -> String {
 
 #[test]
 fn law_a_shaft_milled_by_turning_the_table_is_round() {
-    for moves in ["G1 C360. F5000", "G1 C90.\nC180.\nC270.\nC360.", "G1 C-180.\nC-360."] {
+    let many = format!("G1 C{}.", 360 * 400);
+    let ways = ["G1 C360. F5000", "G1 C90.\nC180.\nC270.\nC360.", "G1 C-180.\nC-360.", &many];
+    for moves in ways {
         let found = predicted(&[("p.nc", &program(moves))]);
         for value in &found.values {
-            assert!(value.value_mm.abs() < 1e-4, "{moves}: {} mm", value.value_mm);
+            // Of 400 turns in one block the pieces are limited.
+            let most_mm = if moves == many { 2e-3 } else { 1e-4 };
+            assert!(value.value_mm.abs() < most_mm, "{moves}: {} mm", value.value_mm);
         }
     }
 }

@@ -6,6 +6,7 @@ use super::fault::{fault, no_farther_than_a_hall, unreachable};
 use super::{AxisPath, Fault, PathStep, Speed, fraction, path_length};
 use crate::basic::choose;
 use crate::curve::Curve;
+use crate::densify::MOST_PIECES;
 use crate::timing::Element;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::axis::Command;
@@ -180,8 +181,9 @@ impl AxisPath<'_> {
             off[0].max(off[1])
         };
         let most_mm = [0, pieces / 2, pieces - 1].map(bow).into_iter().fold(0.0, f64::max);
-        let finer = (most_mm / chord_mm).sqrt().max(1.0);
-        self.bounded(m, (f64::from(pieces) * finer).ceil())
+        let finer = (f64::from(pieces) * (most_mm / chord_mm).sqrt()).ceil();
+        // A table that turns a hundred times in one block is followed as finely as there is room for.
+        self.bounded(m, finer.min(0.5 * MOST_PIECES).max(f64::from(pieces)))
     }
 
     /// The tip in the frame of the tool, by the length that the control counts with.

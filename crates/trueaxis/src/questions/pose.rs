@@ -6,7 +6,7 @@ use crate::report::{self, PoseReport};
 use serde_json::{Value, json};
 use std::io;
 use std::path::PathBuf;
-use trueaxis_input::{CsvTable, Diagnostics, Files};
+use trueaxis_input::{CsvTable, Diagnostics, Files, Place};
 use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::describe::{axis_index, to_inner, warn_beyond_travel};
 use trueaxis_machine::errors::ErrorValues;
@@ -75,6 +75,7 @@ impl Question for AskPose {
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<PoseInput> {
         let machine = self.machine.read(files, problems)?;
+        note_active(&machine, self.machine.place(), problems);
         let approach = match &self.approach {
             Some(text) => words::approach(&machine, text, problems),
             None => Some(Approach::default()),
@@ -119,6 +120,17 @@ impl Question for AskPose {
             }
         }
         Some(PoseAnswer::Rows(Box::new(table)))
+    }
+}
+
+/// A pose shows every error of the machine file, also those that active tables of the control compensate.
+fn note_active(machine: &Machine, place: Place, problems: &mut Diagnostics) {
+    let active = machine.active_compensation();
+    if !active.is_empty() {
+        let names: Vec<String> = active.iter().map(ToString::to_string).collect();
+        let message = format!("shown with {}, which the control compensates", names.join(" "));
+        let hint = "with these tables on, `simulate` and `predict` count them as zero";
+        problems.note("already-active", place, message, hint);
     }
 }
 
