@@ -16,10 +16,8 @@ use trueaxis_machine::Machine;
 /// The machine as commands meet it: what the control compensates already (`[compensation] active` of the
 /// machine file) is not compensated again, and that is reported.
 pub fn not_twice(machine: &Machine, place: Place, problems: &mut Diagnostics) -> Machine {
-    let active = machine.active_compensation();
-    if !active.is_empty() {
-        let names: Vec<String> = active.iter().map(ToString::to_string).collect();
-        let message = format!("not compensated again: {}", names.join(" "));
+    if let Some(names) = machine.active_names() {
+        let message = format!("not compensated again: {names}");
         let hint = "the machine file says that their tables are active in the control: leave them on, and \
                     load nothing over them";
         problems.note("already-active", place, message, hint);

@@ -32,6 +32,12 @@ impl Machine {
         &self.active
     }
 
+    /// Their names in a row; none if there are none.
+    pub fn active_names(&self) -> Option<String> {
+        let names: Vec<String> = self.active.iter().map(ToString::to_string).collect();
+        (!names.is_empty()).then(|| names.join(" "))
+    }
+
     /// The machine while these compensations are switched on: without their errors.
     ///
     /// ```

@@ -39,7 +39,7 @@ struct Station {
     is_back: bool,
     /// A squareness tilts only this motion, mm.
     tilted_mm: Option<Vec3>,
-    /// The linear part of all that follows, to the workpiece.
+    /// The linear part of what follows: to the next station as the chain is walked, in [`Variations`] to the workpiece.
     onward: Mat3,
 }
 

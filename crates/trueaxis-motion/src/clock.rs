@@ -31,7 +31,7 @@ pub enum Timing {
         /// Whether the velocity changes smoothly instead of evenly.
         smooth: bool,
     },
-    /// Not at all: where places count and no time. Every stamp is zero.
+    /// Not at all: where places count and no time. The axes only wait.
     Untimed,
 }
 
@@ -123,10 +123,6 @@ impl Clock {
     /// # Errors
     /// Numbers that no path can have; the node then gets no stamp.
     pub fn push(&mut self, node: &Node, out: &mut dyn FnMut(Stamp)) -> Result<(), TimingError> {
-        if self.timing == Timing::Untimed {
-            out(Stamp::default());
-            return Ok(());
-        }
         if node.dwell_s > 0.0 {
             self.finish(out);
             self.now_s += node.dwell_s;
@@ -138,7 +134,10 @@ impl Clock {
                 let before = self.marks.last().copied().unwrap_or(0.0);
                 self.marks.push(before + node.length);
             }
-            Timing::LookAhead | Timing::Untimed => self.plan(node, out)?,
+            Timing::LookAhead => self.plan(node, out)?,
+            Timing::Untimed => {
+                out(Stamp { time_s: self.now_s, speed: 0.0, held_by: None });
+            }
             Timing::ThreePhase { acceleration, smooth } => {
                 self.block.push(*node);
                 if node.last {

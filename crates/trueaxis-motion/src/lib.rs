@@ -196,9 +196,9 @@ pub fn simulate(
         return Run { problems: log_problems, programs: Vec::new(), stopped: false };
     };
     let watch = EquipmentWatch::new(machine.equipment(), program.dialect().control);
-    let walk = Walk::new(&machine, present, setup, (options, watch), observers);
+    let (walk, path) = Walk::new(&machine, present, setup, (options, watch), observers);
     let lead = |leader: &mut Leader<'_>| execute_on(&machine, program, setup, &settings, leader);
-    let Walked { outcome, faults, watch } = walk.along((&machine, setup, options), lead);
+    let Walked { outcome, faults, watch } = walk.along(path, lead);
     let mut problems = outcome.problems;
     watch.tell_in(program, &outcome.programs, &mut problems);
     problems.append(log_problems);

@@ -160,14 +160,18 @@ pub(super) struct Walked {
 }
 
 impl<'w, 'o> Walk<'w, 'o> {
+    /// With the path that its leader goes.
     pub fn new(
         machine: &'w Machine,
         present: Present,
         setup: &'w SetUp,
         (options, watch): (&'w Options, EquipmentWatch),
         observers: &'w mut [&'o mut dyn Observer],
-    ) -> Self {
-        let path = AxisPath::new(machine, setup, options.densify, options.rounding_mm);
+    ) -> (Self, AxisPath<'w>) {
+        let mut path = AxisPath::new(machine, setup, options.densify, options.rounding_mm);
+        if options.timing == Timing::LookAhead {
+            path = path.with_elements();
+        }
         let start = *path.command();
         let stretch = Stretch {
             setup,
@@ -183,25 +187,22 @@ impl<'w, 'o> Walk<'w, 'o> {
             observers,
             faults: Vec::new(),
         };
-        Self { stretch, watch, keep_going: options.keep_going, steps: 0, is_ended: false }
+        let keep_going = options.keep_going;
+        (Self { stretch, watch, keep_going, steps: 0, is_ended: false }, path)
     }
 
     /// All of a program that a leader is led through.
     pub fn along(
         mut self,
-        (machine, setup, options): (&Machine, &SetUp, &Options),
+        path: AxisPath<'_>,
         lead: impl FnOnce(&mut Leader<'_>) -> Outcome + Send,
     ) -> Walked {
-        let mut path = AxisPath::new(machine, setup, options.densify, options.rounding_mm);
-        if options.timing == Timing::LookAhead {
-            path = path.with_elements();
-        }
         let (to, from) = sync_channel(WAITING);
         let (emptied, back) = sync_channel(WAITING + 2);
         let mut leader = Leader {
             path,
-            keep_going: options.keep_going,
-            stop: &options.stop,
+            keep_going: self.keep_going,
+            stop: self.stretch.stop,
             points: 0,
             steps: 0,
             faulty: Vec::new(),

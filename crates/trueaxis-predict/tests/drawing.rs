@@ -341,6 +341,7 @@ fn bad_drawings_are_refused_by_name() {
         (("s.toml", format!("{STUDY}[measurement]\nscale_u = \"2 mm/m\"\n")), "impossible-value"),
         (("s.toml", format!("{STUDY}[measurement]\nlength_u = \"0 um/m\"\n")), "impossible-value"),
         (("s.toml", format!("{STUDY}[measurement]\n")), "missing-key"),
+        (("s.toml", format!("{STUDY}[measurement]\nlength_u = \"3 um\"\n")), "wrong-unit"),
         (extracted("bore", "rows = 4, points = 12"), "contradiction"),
         (extracted("side", "sections = 4, points = 12"), "contradiction"),
         (extracted("side", "rows = 4, points = 12"), "contradiction"),

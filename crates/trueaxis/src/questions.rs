@@ -153,7 +153,7 @@ pub trait Answer {
     /// # Errors
     /// What the writer says.
     fn write_json(&self, problems: &Diagnostics, out: &mut dyn io::Write) -> io::Result<()> {
-        writeln!(out, "{:#}", complete(self.document(problems), problems))
+        write_document(self.document(problems), problems, out)
     }
 
     /// What is looked through for figures that cannot be: the document, or of a long table the rows that have them.
@@ -331,6 +331,15 @@ pub fn complete(mut document: Value, problems: &Diagnostics) -> Value {
         entries.entry("diagnostics").or_insert_with(listed);
     }
     document
+}
+
+/// Writes a document with what was found in the input.
+fn write_document(
+    document: Value,
+    problems: &Diagnostics,
+    out: &mut dyn io::Write,
+) -> io::Result<()> {
+    writeln!(out, "{:#}", complete(document, problems))
 }
 
 /// Files of a folder that was asked for; none if there is no folder.

@@ -248,6 +248,8 @@ fn read_helix(section: &Section<'_>, turns: &Item<'_>, geometry: &Geometry) -> O
         return None;
     }
     if !(turned >= 1.0 && turned * LEAST_OF_TURN <= points as f64) {
+        let many = turned.abs() >= 1e6;
+        let turned = if many { format!("{turned:e}") } else { turned.to_string() };
         let message = format!(
             "{points} points on {turned} turns: at least one turn, and three points of each"
         );

@@ -8,12 +8,8 @@ use trueaxis_machine::file::machine_of;
 /// The machine that a study names, and its path, its errors that active tables compensate at zero; a note says which.
 pub(crate) fn running_machine(root: &Section<'_>, study: &Path) -> Option<(PathBuf, Machine)> {
     let (path, machine) = machine_of(root, study)?;
-    let active = machine.active_compensation();
-    if active.is_empty() {
-        return Some((path, machine));
-    }
-    let names: Vec<String> = active.iter().map(ToString::to_string).collect();
-    let message = format!("predicted without {}: the control compensates them", names.join(" "));
+    let Some(names) = machine.active_names() else { return Some((path, machine)) };
+    let message = format!("predicted without {names}: the control compensates them");
     let hint = "the machine file says under [compensation] that their tables are active; take out what is not";
     let mut problems = Diagnostics::new();
     problems.note("already-active", Place::whole(&path.display().to_string()), message, hint);

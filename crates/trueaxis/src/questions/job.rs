@@ -124,12 +124,8 @@ impl ProgramChoice {
 
 /// The machine as it runs: what its control compensates by active tables is no error of it; a note says which.
 fn running(machine: Machine, place: Place, problems: &mut Diagnostics) -> Machine {
-    let active = machine.active_compensation();
-    if active.is_empty() {
-        return machine;
-    }
-    let names: Vec<String> = active.iter().map(ToString::to_string).collect();
-    let message = format!("simulated without {}: the control compensates them", names.join(" "));
+    let Some(names) = machine.active_names() else { return machine };
+    let message = format!("simulated without {names}: the control compensates them");
     let hint = "the machine file says under [compensation] that their tables are active; take out what is not";
     problems.note("already-active", place, message, hint);
     machine.as_running()

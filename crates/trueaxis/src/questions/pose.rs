@@ -1,7 +1,9 @@
 //! Where is the tool?
 
 use super::words::{self, argument};
-use super::{Answer, MachineChoice, PoseTable, Question, Tell, complete, is_absurd};
+use super::{
+    Answer, MachineChoice, PoseTable, Question, Tell, complete, is_absurd, write_document,
+};
 use crate::report::{self, PoseReport};
 use serde_json::{Value, json};
 use std::io;
@@ -125,13 +127,10 @@ impl Question for AskPose {
 
 /// A pose shows every error of the machine file, also those that active tables of the control compensate.
 fn note_active(machine: &Machine, place: Place, problems: &mut Diagnostics) {
-    let active = machine.active_compensation();
-    if !active.is_empty() {
-        let names: Vec<String> = active.iter().map(ToString::to_string).collect();
-        let message = format!("shown with {}, which the control compensates", names.join(" "));
-        let hint = "with these tables on, `simulate` and `predict` count them as zero";
-        problems.note("already-active", place, message, hint);
-    }
+    let Some(names) = machine.active_names() else { return };
+    let message = format!("shown with {names}, which the control compensates");
+    let hint = "with these tables on, `simulate` and `predict` count them as zero";
+    problems.note("already-active", place, message, hint);
 }
 
 /// Whether every column of a table is an axis; what stands outside its travel is a warning.
@@ -229,7 +228,7 @@ impl Answer for PoseAnswer {
 
     fn write_json(&self, problems: &Diagnostics, out: &mut dyn io::Write) -> io::Result<()> {
         let Self::Rows(table) = self else {
-            return writeln!(out, "{:#}", complete(self.document(problems), problems));
+            return write_document(self.document(problems), problems, out);
         };
         const ROWS: &str = "\"rows\": [";
         let around = format!("{:#}", complete(Self::of_rows(json!([])), problems));

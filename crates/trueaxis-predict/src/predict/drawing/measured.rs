@@ -2,7 +2,7 @@
 
 use super::super::monte_carlo::{Sampling, spreads};
 use trueaxis_geometry::{Mat3, Vec3};
-use trueaxis_input::{Dimension, Section};
+use trueaxis_input::{Dimension, Section, parse_quantity};
 use trueaxis_part::part::Part;
 
 /// No measuring machine is worse. Unit: mm.
@@ -38,7 +38,16 @@ impl Measurement {
             None
         };
         let common = |key: &str| {
-            value(key, Dimension::Angle, MOST_COMMON_U, "above zero and at most 1000 um/m")
+            let hint = "of each metre, above zero and at most 1000 um/m: \"2 um/m\"";
+            let item = section.get(key);
+            if let Some(text) = item.as_ref().and_then(|i| i.as_text())
+                && parse_quantity(text, Dimension::Length).is_ok()
+            {
+                let message = format!("`{text}` is a length, expected a length of each metre");
+                item.as_ref()?.error("wrong-unit", message, hint);
+                return None;
+            }
+            value(key, Dimension::Angle, MOST_COMMON_U, hint)
         };
         let point =
             value("point_u", Dimension::Length, MOST_POINT_U_MM, "above zero and at most 0.1 mm");
