@@ -2,7 +2,7 @@
 
 mod library;
 
-use library::{Random, SHIPPED, machine, warm};
+use library::{Random, SHIPPED, machine, machine_of, warm};
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::errors::{ErrorIndex, ErrorKind, ErrorValues, Rotation};
 use trueaxis_machine::{ErrorModel, Machine, Squareness};
@@ -76,7 +76,10 @@ fn law_an_uncertain_quantity_moves_the_tool_as_the_whole_chain_says() {
     let mut random = Random(5);
     let mut moved = 0;
     // Its sensors and the expansion of the workpiece move several errors at once, and the workpiece.
-    let hot = warm(&machine("gantry-001"), "scale_x=25 scale_y=24 workpiece=28");
+    let uncertain = |text: String| text.replace("\"13.2 um/(m K)\"", "\"13.2 ± 1 um/(m K)\"");
+    let hot = machine_of("gantry-001", uncertain);
+    let hot = warm(&hot, "scale_x=25 scale_y=24 workpiece=28");
+    assert!(hot.uncertain_quantities().iter().any(|q| q.contains("workpiece")));
     let models = under_each_model().chain([("hot".to_owned(), hot)]);
     for (name, machine) in models {
         let quantities = machine.uncertain_quantities();
