@@ -180,11 +180,9 @@ impl PoseFound {
     }
 }
 
-impl PoseAnswer {
-    /// The document `trueaxis/pose/1` of a table, with these rows.
-    fn of_rows(rows: Value) -> Value {
-        json!({ "schema": "trueaxis/pose/1", "rows": rows })
-    }
+/// The document `trueaxis/pose/1` of a table, with these rows.
+fn of_rows(rows: Value) -> Value {
+    json!({ "schema": "trueaxis/pose/1", "rows": rows })
 }
 
 impl Answer for PoseAnswer {
@@ -207,21 +205,16 @@ impl Answer for PoseAnswer {
         }
     }
 
-    /// The poses of a table are a table again.
     fn text(&self) -> String {
-        match self {
-            Self::One(_) => self.report().text(),
-            Self::Rows(table) => {
-                let mut text = Vec::new();
-                let _ = table.write_csv(&mut text);
-                String::from_utf8_lossy(&text).into_owned()
-            }
-        }
+        let mut text = Vec::new();
+        let _ = self.write_text(&mut text);
+        String::from_utf8_lossy(&text).into_owned()
     }
 
+    /// The poses of a table are a table again.
     fn write_text(&self, out: &mut dyn io::Write) -> io::Result<()> {
         match self {
-            Self::One(_) => out.write_all(self.text().as_bytes()),
+            Self::One(_) => out.write_all(self.report().text().as_bytes()),
             Self::Rows(table) => table.write_csv(out),
         }
     }
@@ -231,7 +224,7 @@ impl Answer for PoseAnswer {
             return write_document(self.document(problems), problems, out);
         };
         const ROWS: &str = "\"rows\": [";
-        let around = format!("{:#}", complete(Self::of_rows(json!([])), problems));
+        let around = format!("{:#}", complete(of_rows(json!([])), problems));
         let (before, after) = around.split_once(ROWS).unwrap_or((&around, ""));
         write!(out, "{before}{ROWS}")?;
         table.write_json_rows(out)?;
@@ -241,7 +234,7 @@ impl Answer for PoseAnswer {
     fn examined(&self, problems: &Diagnostics) -> Value {
         match self {
             Self::One(_) => self.document(problems),
-            Self::Rows(table) => Self::of_rows(Value::Object(table.first_row(is_absurd))),
+            Self::Rows(table) => of_rows(Value::Object(table.first_row(is_absurd))),
         }
     }
 }
