@@ -105,6 +105,10 @@ impl<F> Direction<F> {
     /// assert!(Direction::<Workpiece>::of(Vec3::zeros()).is_none());
     /// ```
     pub fn of(vector: Vec3) -> Option<Self> {
+        let square = vector.norm_squared();
+        if (1e-200..1e200).contains(&square) {
+            return Some(Self(vector / square.sqrt(), PhantomData));
+        }
         // Scaled first, so that neither 1e-200 nor 1e200 loses its direction in the squares.
         let scale = vector.amax();
         if !vector.iter().all(|v| v.is_finite()) || scale == 0.0 {

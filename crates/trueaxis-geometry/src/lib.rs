@@ -44,7 +44,13 @@ pub type Mat3 = nalgebra::Matrix3<f64>;
 
 /// The angle between two unit vectors, to rounding everywhere, rad.
 pub fn angle(a: &Vec3, b: &Vec3) -> f64 {
-    a.cross(b).norm().atan2(a.dot(b))
+    let (sine, cosine) = (a.cross(b).norm(), a.dot(b));
+    if sine < 1e-3 && cosine > 0.0 {
+        // The arc sine: the next term, 15/336 s⁷, is 5e-20 of it.
+        let square = sine * sine;
+        return sine * (1.0 + square * (1.0 / 6.0 + 0.075 * square));
+    }
+    sine.atan2(cosine)
 }
 
 /// The kind of motion of an axis.

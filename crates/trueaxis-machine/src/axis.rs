@@ -37,12 +37,19 @@ pub enum Travel {
 impl Travel {
     /// Whether a position lies within the travel; the rounding of a file's numbers is allowed.
     pub fn contains(&self, q: f64) -> bool {
+        let [from, to] = self.ends();
+        (from..=to).contains(&q)
+    }
+
+    /// The least and the largest position that it contains.
+    pub(crate) fn ends(&self) -> [f64; 2] {
         match *self {
             Self::Between(from, to) => {
                 let slack = 1e-9 * from.abs().max(to.abs()).max(1.0);
-                (from - slack..=to + slack).contains(&q)
+                [from - slack, to + slack]
             }
-            Self::Unlimited | Self::Unknown => q.is_finite(),
+            // Any number, but not infinity.
+            Self::Unlimited | Self::Unknown => [f64::MIN, f64::MAX],
         }
     }
 }

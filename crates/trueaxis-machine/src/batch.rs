@@ -17,6 +17,7 @@
 
 mod columns;
 mod compensated;
+mod inverse;
 mod kernel;
 mod lanes;
 mod motion;
@@ -31,6 +32,7 @@ pub use columns::{Commands, DeviationColumns, DeviationTable};
 pub use compensated::{
     CommandColumns, CommandTable, CompensationError, CompiledCompensator, Effort,
 };
+pub use inverse::{CompiledInverse, InverseError, TargetColumns};
 pub use motion::LARGEST_TURN_RAD;
 
 use crate::axis::{Approach, Command, MAX_AXES};

@@ -7,6 +7,7 @@
 //!     [Target] ──follow──> one command per target                      dynamic programming
 //! ```
 
+mod closed;
 mod direction;
 mod follow;
 mod linear;
@@ -19,6 +20,7 @@ pub use follow::{FollowError, FollowFault};
 use crate::Machine;
 use crate::axis::{AxisKind, Command};
 use crate::errors::BodyName;
+pub(crate) use closed::{Aim, ClosedForm};
 pub(crate) use direction::DirectionSolver;
 pub(crate) use placer::Placer;
 pub(crate) use serial::Serial;

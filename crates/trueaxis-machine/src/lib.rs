@@ -44,6 +44,7 @@ pub mod errors;
 pub mod file;
 pub mod heat;
 mod inverse;
+mod lanes;
 pub mod models;
 pub mod tcp;
 mod tool;

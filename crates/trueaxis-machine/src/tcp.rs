@@ -9,7 +9,11 @@
 
 use crate::Machine;
 use crate::axis::Command;
-use crate::inverse::{DirectionSolver, Placer, RESOLUTION_RAD, Serial, SolveError, turns};
+use crate::inverse::turns::RotaryPair;
+use crate::inverse::{
+    Aim, ClosedForm, DirectionSolver, Placer, RESOLUTION_RAD, Serial, SolveError, turns,
+};
+use crate::lanes::Plain;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Direction, Workpiece};
 
@@ -35,7 +39,11 @@ pub struct TipControl {
     machine: Machine,
     serial: Serial,
     placer: Placer,
+    /// The same in closed form, where there is one.
+    closed: Option<ClosedForm>,
     aim: DirectionSolver,
+    /// The same in closed form, where exactly two axes aim and none is held.
+    two_axes: Option<TwoAxes>,
     /// More than two rotary axes: the aim depends on those that are held.
     redundant: bool,
 }
@@ -44,13 +52,28 @@ impl TipControl {
     /// `None` if the machine has fewer than three linear axes.
     pub fn of(machine: &Machine) -> Option<Self> {
         let serial = Serial::of(machine);
+        let placer = Placer::of(machine, &serial)?;
+        let aim = DirectionSolver::of(&serial, &Command::default());
+        let redundant = serial.rotary().count() > 2;
         Some(Self {
-            placer: Placer::of(machine, &serial)?,
-            aim: DirectionSolver::of(&serial, &Command::default()),
-            redundant: serial.rotary().count() > 2,
+            closed: ClosedForm::of(machine, &serial, placer.placing),
+            two_axes: Aim::of(&aim)
+                .filter(|_| !redundant)
+                .map(|aim| TwoAxes { pair: RotaryPair::of(machine, aim.axes), aim }),
+            placer,
+            aim,
+            redundant,
             serial,
             machine: machine.clone(),
         })
+    }
+
+    pub(crate) fn closed_form(&self) -> Option<&ClosedForm> {
+        self.closed.as_ref()
+    }
+
+    pub(crate) fn two_axes(&self) -> Option<&Aim> {
+        self.two_axes.as_ref().map(|two| &two.aim)
     }
 
     /// The nominal machine.
@@ -60,7 +83,11 @@ impl TipControl {
 
     /// Tip (mm) and tool axis (unit vector) at a command.
     pub fn tip_and_axis(&self, command: &Command) -> (Vec3, Vec3) {
-        self.placer.tip_and_axis(command)
+        let Some(form) = self.closed.as_ref().filter(|form| form.holds_for(command)) else {
+            return self.placer.tip_and_axis(command);
+        };
+        let q = command.map(|q| Plain([q]));
+        form.tool(&q, &form.sines(&q)).map(vector).into()
     }
 
     /// Sets the linear axes so that the tip is at `tip_mm` while all other axes of the command
@@ -70,7 +97,25 @@ impl TipControl {
     ///     tip = tip(q = 0) + q1·d1 + q2·d2 + q3·d3       docs/model.md eq. 16
     /// ```
     pub fn place(&self, tip_mm: Vec3, command: &mut Command) -> bool {
-        self.placer.place(tip_mm, command)
+        let Some(form) = self.closed.as_ref().filter(|form| form.holds_for(command)) else {
+            return self.placer.place(tip_mm, command);
+        };
+        let q = command.map(|q| Plain([q]));
+        let tip = [tip_mm.x, tip_mm.y, tip_mm.z].map(|x| Plain([x]));
+        let placed = form.place(tip, &q, &form.sines(&q));
+        let is_finite = placed.iter().all(|q| q.0[0].is_finite());
+        if is_finite {
+            for (axis, q) in form.placing.into_iter().zip(placed) {
+                command[axis] = q.0[0] + 0.0; // −0 is 0
+            }
+        }
+        is_finite
+    }
+
+    /// Why a tip was not reached.
+    pub(crate) fn flat(&self) -> SolveError {
+        let moving = self.serial.linear().map(|i| self.machine.axes()[i].name).collect();
+        SolveError::TipUnreachable { missed_by_mm: f64::NAN, moving }
     }
 
     /// The command with its rotary axes turned so that the tool stands along `axis`; the linear
@@ -109,8 +154,40 @@ impl TipControl {
         axis: Direction<Workpiece>,
         from: &Command,
     ) -> Result<DirectionSolution, SolveError> {
-        let (one, other) = self.branches(axis, from)?;
-        Ok(match other {
+        let u = axis.vector();
+        let is_finite = u.iter().chain(from).all(|v| v.is_finite());
+        if let Some(two) = self.two_axes.as_ref().filter(|_| is_finite)
+            && let Some(branches) = two.branches(u)
+        {
+            return Ok(two.nearer(branches, from));
+        }
+        Ok(self.nearer(self.branches_by_scalar(u, from)?, from))
+    }
+
+    /// The command goes to the nearest one for a direction whose branches may be known: two angles of one, two of the other.
+    pub(crate) fn aim_with(
+        &self,
+        axis: Vec3,
+        known: Option<[f64; 4]>,
+        command: &mut Command,
+    ) -> Result<(), SolveError> {
+        if let (Some([a1, b1, a2, b2]), Some(two)) = (known, &self.two_axes) {
+            let (q, _) = two.pair.nearer([[a1, b1], [a2, b2]], command);
+            for (axis, q) in two.pair.axes.into_iter().zip(q) {
+                command[axis] = q;
+            }
+            return Ok(());
+        }
+        *command = self.nearer(self.branches_by_scalar(axis, command)?, command).command;
+        Ok(())
+    }
+
+    fn nearer(
+        &self,
+        (one, other): (DirectionSolution, Option<DirectionSolution>),
+        from: &Command,
+    ) -> DirectionSolution {
+        match other {
             None => one,
             // Solutions inside the travel of the rotary axes come first, then the shorter motion.
             Some(other) if one.within_travel != other.within_travel => {
@@ -126,7 +203,7 @@ impl TipControl {
                     false => one,
                 }
             }
-        })
+        }
     }
 
     /// The branches in the turns nearest to `from`; two, or one where both meet.
@@ -136,6 +213,23 @@ impl TipControl {
         from: &Command,
     ) -> Result<(DirectionSolution, Option<DirectionSolution>), SolveError> {
         let u = axis.vector();
+        let is_finite = u.iter().chain(from).all(|v| v.is_finite());
+        if let Some(two) = self.two_axes.as_ref().filter(|_| is_finite)
+            && let Some(branches) = two.branches(u)
+        {
+            let [one, other] =
+                branches.map(|angles| self.entry(two.aim.axes.into_iter().zip(angles), from));
+            return Ok((one, Some(other)));
+        }
+        self.branches_by_scalar(u, from)
+    }
+
+    /// The same at poles and where branches meet, too.
+    fn branches_by_scalar(
+        &self,
+        u: Vec3,
+        from: &Command,
+    ) -> Result<(DirectionSolution, Option<DirectionSolution>), SolveError> {
         if !u.iter().chain(from).all(|v| v.is_finite()) {
             return Err(SolveError::NotFinite);
         }
@@ -154,34 +248,30 @@ impl TipControl {
         })?;
         let idle = aimed.first_is_idle;
         let entry = |angles: [Option<f64>; 2]| {
-            let mut command = *from;
-            for (turn, angle) in aim.turning.iter().zip(angles) {
-                if let Some(angle) = angle {
-                    let principal = turns::principal(turn.sense * angle);
-                    command[turn.axis] = self.nearest_inside(turn.axis, principal, from);
-                }
-            }
-            let within_travel = self.serial.rotary().all(|i| self.inside(i, command[i]));
-            DirectionSolution { command, within_travel, idle }
+            let turns = aim.turning.iter().zip(angles);
+            let turned = turns.filter_map(|(turn, q)| Some((turn.axis, turn.sense * q?)));
+            DirectionSolution { idle, ..self.entry(turned, from) }
         };
         Ok((entry(aimed.one), aimed.other.map(entry)))
     }
 
-    fn inside(&self, axis: usize, q: f64) -> bool {
-        self.machine.axes()[axis].travel.contains(q)
+    /// A branch with its angles in the turns nearest to where the axes are.
+    fn entry(
+        &self,
+        angles: impl Iterator<Item = (usize, f64)>,
+        from: &Command,
+    ) -> DirectionSolution {
+        let mut command = *from;
+        for (axis, angle) in angles {
+            let travel = self.machine.axes()[axis].travel;
+            command[axis] = turns::nearest_inside(travel, turns::principal(angle), from[axis]);
+        }
+        let within_travel = self.serial.rotary().all(|i| self.inside(i, command[i]));
+        DirectionSolution { command, within_travel, idle: false }
     }
 
-    /// The turn of an angle nearest to where the axis is, within the travel if any is.
-    fn nearest_inside(&self, axis: usize, q: f64, from: &Command) -> f64 {
-        let near = turns::nearest(q, from[axis]);
-        if self.inside(axis, near) {
-            return near;
-        }
-        let travel = self.machine.axes()[axis].travel;
-        let own = Some(q).filter(|&q| travel.contains(q));
-        let all = turns::others(travel, q, from[axis]).chain(own);
-        let distance = |q: &f64| (q - from[axis]).abs();
-        all.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(near)
+    fn inside(&self, axis: usize, q: f64) -> bool {
+        self.machine.axes()[axis].travel.contains(q)
     }
 
     /// The direction of the rotary axis that turns first, seen from the workpiece: where the tool
@@ -200,6 +290,34 @@ impl TipControl {
         let frames = self.serial.frames(command);
         self.serial.axis_in(&frames, first.axis).cross(&frames.tool_axis()).norm()
     }
+}
+
+/// The two rotary axes of a machine that has no others, ready to aim.
+#[derive(Debug, Clone)]
+struct TwoAxes {
+    aim: Aim,
+    pair: RotaryPair,
+}
+
+impl TwoAxes {
+    /// The angles of both branches; `None` where the scalar form has to decide.
+    fn branches(&self, u: Vec3) -> Option<[[f64; 2]; 2]> {
+        let (both, undecided) = self.aim.branches([u.x, u.y, u.z].map(|x| Plain([x])));
+        (undecided == 0).then(|| both.map(|angles| angles.map(|q| q.0[0])))
+    }
+
+    fn nearer(&self, branches: [[f64; 2]; 2], from: &Command) -> DirectionSolution {
+        let (q, within_travel) = self.pair.nearer(branches, from);
+        let mut command = *from;
+        for (axis, q) in self.pair.axes.into_iter().zip(q) {
+            command[axis] = q;
+        }
+        DirectionSolution { command, within_travel, idle: false }
+    }
+}
+
+fn vector(v: [Plain<1>; 3]) -> Vec3 {
+    Vec3::from(v.map(|x| x.0[0]))
 }
 
 /// A position of the rotary axes for a required direction of the tool.

@@ -29,7 +29,7 @@ use fault::{fault, no_farther_than_a_hall, too_many_pieces};
 use trueaxis_geometry::frame::{Direction, Workpiece, inverse3};
 use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{AxisKind, Command};
+use trueaxis_machine::axis::{AxisKind, Command, MAX_AXES};
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::{
     Axis, AxisSet, Coordinates, Event, FeedMode, Frame, Move, MoveKind, OrientationPath, Origin,
@@ -113,6 +113,8 @@ pub struct AxisPath<'m> {
     command: Command,
     /// X, Y and Z of the present place in basic coordinates.
     basic: Vec3,
+    /// The tool axis at axis positions that it was last turned to.
+    aimed: (Command, Vec3),
     /// Axes whose position the interpreter does not know.
     stale: AxisSet,
     /// In which direction the tool axis turned last.
@@ -154,6 +156,7 @@ impl<'m> AxisPath<'m> {
             revolutions_per_s: 0.0,
             command: start(machine, setup),
             basic: Vec3::zeros(),
+            aimed: ([f64::NAN; MAX_AXES], Vec3::z()),
             stale: AxisSet::default(),
             tangent: None,
             pieces: 0,

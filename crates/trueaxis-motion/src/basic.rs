@@ -1,8 +1,8 @@
 //! The frames between program and machine: where basic coordinates lie, and which of several
 //! poses is taken.
 
-use super::orientation::angle;
 use super::setup::SetUp;
+use trueaxis_geometry::angle;
 use trueaxis_geometry::frame::{Direction, Pose, Workpiece};
 use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
@@ -23,7 +23,15 @@ pub(super) fn nearest(
     direction: Direction<Workpiece>,
     now: &Command,
 ) -> Result<Command, SolveError> {
-    let (_, axis) = control.tip_and_axis(now);
+    nearest_to(control, direction, (now, control.tip_and_axis(now).1))
+}
+
+/// The same where the tool axis there is known.
+pub(super) fn nearest_to(
+    control: &TipControl,
+    direction: Direction<Workpiece>,
+    (now, axis): (&Command, Vec3),
+) -> Result<Command, SolveError> {
     // Rounding of a direction that is held must not turn an axis at a pole.
     if angle(&axis, &direction.vector()) < trueaxis_machine::tcp::POLE_RAD {
         return Ok(*now);

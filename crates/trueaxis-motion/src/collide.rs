@@ -24,5 +24,5 @@ pub use mesh::{Mesh, Nearest, Placed, Scratch};
 pub use scene::{Allowed, BodyModel, Contact, Excluded, Role, Scene, ToolShape};
 pub use shape::{ROUNDNESS_MM, cuboid, raise, revolve, triangles_of};
 pub use stl::{read_stl, write_stl};
-pub use sweep::Sweep;
+pub use sweep::{Room, Sweep};
 pub use triangle::{Gap, Triangle, gap};

@@ -1,6 +1,6 @@
 //! Watches all bodies along the path: collisions, near misses, rapid moves through stock.
 
-use super::collide::{Allowed, BodyModel, Contact, Role, Scene, Sweep, ToolShape};
+use super::collide::{Allowed, BodyModel, Contact, Role, Room, Scene, Sweep, ToolShape};
 use super::issues::{IssueKind, Log};
 use super::setup::{Nearness, SetUp};
 use super::{Batch, Node, Observer, Stamp};
@@ -25,6 +25,8 @@ pub struct Collisions {
     scene: Scene,
     tool: u32,
     before: Option<(Command, f64)>,
+    /// What was free around the last place that was looked at.
+    room: Option<Room>,
     contacts: Vec<Contact>,
     /// How much work the check was so far, and how much it may be.
     work: u64,
@@ -66,6 +68,7 @@ impl Collisions {
             scene,
             tool: 0,
             before: None,
+            room: None,
             contacts: Vec::new(),
             work: 0,
             most_work: WORK,
@@ -130,7 +133,7 @@ impl Collisions {
     }
 
     fn change_tool(&mut self, number: u32) {
-        self.tool = number;
+        (self.tool, self.room) = (number, None);
         let shape = self.tools.get(&number).cloned().unwrap_or_else(ToolShape::none);
         let (models, attached) = (self.models.clone(), self.attached.clone());
         self.scene = Scene::new(&self.machine, models, &shape, attached);
@@ -152,6 +155,12 @@ impl Collisions {
         let poses = |command: &Command| machine.body_poses(command, &ErrorValues::default());
         self.contacts.clear();
         self.most_work += self.work_of_move(&from, &node.command);
+        let is_free = |room: &mut Room| room.take(&from, &node.command, sweep.allowed);
+        if self.room.as_mut().is_some_and(is_free) {
+            self.log.close(from_s);
+            self.before = Some((node.command, stamp.time_s));
+            return;
+        }
         let before = self.scene.work();
         self.scene.limit_work(before + self.most_work.saturating_sub(self.work));
         let is_whole = self.scene.sweep(&poses, &sweep, &mut self.contacts);
@@ -159,6 +168,11 @@ impl Collisions {
         if !is_whole {
             self.ended_at = Some(node.origin);
         }
+        self.room =
+            self.contacts.is_empty().then(|| self.scene.room(&sweep)).and_then(|mut room| {
+                let is_free = room.take(&from, &node.command, sweep.allowed);
+                is_free.then_some(room)
+            });
         for contact in &self.contacts {
             let time_s = from_s + contact.at * (stamp.time_s - from_s);
             let Some(kind) = kind(contact) else { continue };

@@ -6,8 +6,8 @@
 //!
 //! On a great circle a is perpendicular to both directions; on a cone both lie at the same angle from a.
 
-use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::rotation;
+use trueaxis_geometry::{Vec3, angle};
 use trueaxis_nc::moves::Cone;
 
 /// Directions nearer to opposite than this have no plane of their own, rad.
@@ -35,11 +35,6 @@ pub(super) enum NoSwing {
     NotOnCone,
     /// Neither axis nor angle nor a direction between is given.
     Undetermined,
-}
-
-/// The angle between two unit vectors, to rounding everywhere.
-pub(super) fn angle(a: &Vec3, b: &Vec3) -> f64 {
-    a.cross(b).norm().atan2(a.dot(b))
 }
 
 impl Swing {
@@ -127,7 +122,12 @@ impl Swing {
         match u {
             0.0 => self.from,
             1.0 => self.to,
-            _ => (rotation(self.about, self.angle_rad * u) * self.from).normalize(),
+            _ => {
+                let (sin, cos) = (self.angle_rad * u).sin_cos();
+                let (about, from) = (&self.about, &self.from);
+                let along = about * (about.dot(from) * (1.0 - cos));
+                (from * cos + about.cross(from) * sin + along).normalize()
+            }
         }
     }
 

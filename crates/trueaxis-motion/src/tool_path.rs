@@ -169,14 +169,12 @@ impl ToolPath {
     fn split(&mut self) {
         self.along_path_mm.clear();
         for i in 0..self.poses.len() {
-            let pose = self.poses.at(i);
-            let tip = pose.nominal_tip.vector();
+            let [tip, axis, d, _] = self.poses.vectors_at(i);
             if let Some(step) = self.tip.and_then(|before| (tip - before).try_normalize(1e-9)) {
                 self.tangent = step;
             }
             self.tip = Some(tip);
-            let [feed, normal, binormal] = path_frame(self.tangent, pose.nominal_axis.vector());
-            let d = pose.tip_mm;
+            let [feed, normal, binormal] = path_frame(self.tangent, axis);
             self.along_path_mm.push(Vec3::new(d.dot(&feed), d.dot(&normal), d.dot(&binormal)));
         }
     }

@@ -187,15 +187,18 @@ impl DeviationTable {
 
     /// One pose.
     pub fn at(&self, i: usize) -> Deviation {
-        let vector = |k: usize| {
-            let [x, y, z] = &self.columns[k];
-            Vec3::new(x[i], y[i], z[i])
-        };
+        let [nominal_tip, nominal_axis, tip_mm, axis] = self.vectors_at(i);
         Deviation {
-            nominal_tip: Point::from_vector(vector(0)),
-            nominal_axis: Direction::of(vector(1)).unwrap_or(Direction::Z),
-            tip_mm: vector(2),
-            axis: vector(3),
+            nominal_tip: Point::from_vector(nominal_tip),
+            nominal_axis: Direction::of(nominal_axis).unwrap_or(Direction::Z),
+            tip_mm,
+            axis,
         }
+    }
+
+    /// The numbers of a pose as they stand in the columns: nominal tip (mm) and tool axis (unit vector to rounding), deviation of
+    /// the tip (mm) and of the tool axis.
+    pub fn vectors_at(&self, i: usize) -> [Vec3; 4] {
+        self.columns.each_ref().map(|[x, y, z]| Vec3::new(x[i], y[i], z[i]))
     }
 }

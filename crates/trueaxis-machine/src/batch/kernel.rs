@@ -4,39 +4,15 @@
 //! iterators over lanes: those would be compiled once without the instructions, and called.
 
 use super::columns::DeviationColumns;
-use super::lanes::{Lanes, ROUNDING};
+use super::lanes::PoseLanes;
 use super::motion::{General, GeneralCurve, Motion};
 use super::pieces::Knots;
 use super::steps::Step;
 use super::{BatchError, Inputs, Job, Plan};
-use std::f64::consts::FRAC_2_PI;
-
-/// π/2 in three parts; the first two have 33 bits, so that their products with k stay exact.
-const HALF_PI: [f64; 3] = [
-    f64::from_bits(0x3FF9_21FB_5440_0000),
-    f64::from_bits(0x3DD0_B461_1A60_0000),
-    2.022_266_248_795_950_6e-21,
-];
-
-/// sin r = r + r³(S₀ + S₁r² + …) on ±π/4; the minimax coefficients of fdlibm's k_sin.c.
-const SINE: [f64; 6] = [
-    -1.666_666_666_666_663_2e-1,
-    8.333_333_333_322_49e-3,
-    -1.984_126_982_985_795e-4,
-    2.755_731_370_707_006_8e-6,
-    -2.505_076_025_340_686_3e-8,
-    1.589_690_995_211_55e-10,
-];
-
-/// cos r = 1 − r²/2 + r⁴(C₀ + C₁r² + …) on ±π/4; fdlibm's k_cos.c.
-const COSINE: [f64; 6] = [
-    4.166_666_666_666_66e-2,
-    -1.388_888_888_887_411e-3,
-    2.480_158_728_947_673e-5,
-    -2.755_731_435_139_066_3e-7,
-    2.087_572_321_298_175e-9,
-    -1.135_964_755_778_819_5e-11,
-];
+use crate::lanes::vectors::{
+    difference, product, rotation, slide, slide_along, splat3, splat33, sum, turn_pair_about,
+};
+use crate::lanes::{Lanes, sine_cosine};
 
 /// The tool on its way through the chain.
 #[derive(Clone, Copy)]
@@ -55,7 +31,7 @@ struct Displacement<L> {
 
 /// Computes a job; the poses that the plan does not cover go to the scalar path.
 #[inline(always)]
-pub(super) fn run<const W: usize, L: Lanes<W>>(
+pub(super) fn run<const W: usize, L: PoseLanes<W>>(
     job: &Job<'_>,
     out: &mut DeviationColumns<'_>,
 ) -> Result<(), BatchError> {
@@ -79,7 +55,7 @@ pub(super) fn run<const W: usize, L: Lanes<W>>(
 
 /// The poses that do not fill a group: the last one is repeated in the remaining lanes.
 #[inline(always)]
-fn last_poses<const W: usize, L: Lanes<W>>(
+fn last_poses<const W: usize, L: PoseLanes<W>>(
     job: &Job<'_>,
     out: &mut DeviationColumns<'_>,
     at: usize,
@@ -136,7 +112,7 @@ fn by_scalar(
 
 /// Poses `at .. at + W` and the lanes that the plan does not cover.
 #[inline(always)]
-pub(super) fn poses<const W: usize, L: Lanes<W>>(
+pub(super) fn poses<const W: usize, L: PoseLanes<W>>(
     plan: &Plan,
     inputs: &Inputs<'_>,
     at: usize,
@@ -200,26 +176,6 @@ pub(super) fn lanes_at<const W: usize, L: Lanes<W>>(column: &[f64], at: usize) -
         // Not reached: the lengths are checked before.
         None => L::splat(0.0),
     }
-}
-
-#[inline(always)]
-pub(super) fn splat3<const W: usize, L: Lanes<W>>(v: &[f64; 3]) -> [L; 3] {
-    [L::splat(v[0]), L::splat(v[1]), L::splat(v[2])]
-}
-
-#[inline(always)]
-pub(super) fn splat33<const W: usize, L: Lanes<W>>(m: &[[f64; 3]; 3]) -> [[L; 3]; 3] {
-    [splat3(&m[0]), splat3(&m[1]), splat3(&m[2])]
-}
-
-#[inline(always)]
-pub(super) fn sum<const W: usize, L: Lanes<W>>(a: [L; 3], b: [L; 3]) -> [L; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-#[inline(always)]
-pub(super) fn difference<const W: usize, L: Lanes<W>>(a: [L; 3], b: [L; 3]) -> [L; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 /// `v + m·u`
@@ -315,29 +271,6 @@ fn rotate<const W: usize, L: Lanes<W>>(state: &mut State<L>, m: &[[L; 3]; 3]) {
     state.axis_deviation = product(m, &state.axis_deviation);
 }
 
-#[inline(always)]
-pub(super) fn product<const W: usize, L: Lanes<W>>(m: &[[L; 3]; 3], u: &[L; 3]) -> [L; 3] {
-    [dot(&m[0], u), dot(&m[1], u), dot(&m[2], u)]
-}
-
-#[inline(always)]
-pub(super) fn dot<const W: usize, L: Lanes<W>>(a: &[L; 3], b: &[L; 3]) -> L {
-    a[2].times_plus(b[2], a[1].times_plus(b[1], a[0] * b[0]))
-}
-
-/// `I cos φ + [n]× sin φ + n nᵀ (1 − cos φ)` (Rodrigues)
-#[inline(always)]
-pub(super) fn rotation<const W: usize, L: Lanes<W>>(n: [L; 3], sin: L, cos: L) -> [[L; 3]; 3] {
-    let versine = L::splat(1.0) - cos;
-    let [x, y, z] = [n[0] * versine, n[1] * versine, n[2] * versine];
-    let [sx, sy, sz] = [n[0] * sin, n[1] * sin, n[2] * sin];
-    [
-        [x.times_plus(n[0], cos), x * n[1] - sz, x.times_plus(n[2], sy)],
-        [y.times_plus(n[0], sz), y.times_plus(n[1], cos), y * n[2] - sx],
-        [z * n[0] - sy, z.times_plus(n[1], sx), z.times_plus(n[2], cos)],
-    ]
-}
-
 /// Every vector about x, y or z.
 #[inline(always)]
 fn turn_about<const W: usize, L: Lanes<W>>(state: &mut State<L>, about: usize, sin: L, cos: L) {
@@ -347,73 +280,9 @@ fn turn_about<const W: usize, L: Lanes<W>>(state: &mut State<L>, about: usize, s
     turn_pair_about(&mut state.axis_deviation, about, sin, cos);
 }
 
-#[inline(always)]
-pub(super) fn turn_pair_about<const W: usize, L: Lanes<W>>(
-    v: &mut [L; 3],
-    about: usize,
-    sin: L,
-    cos: L,
-) {
-    // Written out: an index known only at run time would put the vector into memory.
-    match about {
-        0 => (v[1], v[2]) = turned(v[1], v[2], sin, cos),
-        1 => (v[2], v[0]) = turned(v[2], v[0], sin, cos),
-        _ => (v[0], v[1]) = turned(v[0], v[1], sin, cos),
-    }
-}
-
-#[inline(always)]
-fn turned<const W: usize, L: Lanes<W>>(u: L, v: L, sin: L, cos: L) -> (L, L) {
-    (sin.times_from(v, cos * u), sin.times_plus(u, cos * v))
-}
-
-#[inline(always)]
-pub(super) fn slide<const W: usize, L: Lanes<W>>(tip: &mut [L; 3], per_unit: &[L; 3], q: L) {
-    tip[0] = q.times_plus(per_unit[0], tip[0]);
-    tip[1] = q.times_plus(per_unit[1], tip[1]);
-    tip[2] = q.times_plus(per_unit[2], tip[2]);
-}
-
-#[inline(always)]
-pub(super) fn slide_along<const W: usize, L: Lanes<W>>(
-    tip: &mut [L; 3],
-    along: usize,
-    q: L,
-    per_unit: L,
-) {
-    match along {
-        0 => tip[0] = q.times_plus(per_unit, tip[0]),
-        1 => tip[1] = q.times_plus(per_unit, tip[1]),
-        _ => tip[2] = q.times_plus(per_unit, tip[2]),
-    }
-}
-
-/// Sine and cosine to about one unit in the last place of 1, for |x| up to 1e6.
-#[inline(always)]
-pub(super) fn sine_cosine<const W: usize, L: Lanes<W>>(x: L) -> (L, L) {
-    let turns = x.times_plus(L::splat(FRAC_2_PI), L::splat(ROUNDING));
-    let k = turns - L::splat(ROUNDING);
-    let [high, middle, low] = splat3(&HALF_PI);
-    let r = k.times_from(low, k.times_from(middle, k.times_from(high, x)));
-    let z = r * r;
-    let sine = (r * z).times_plus(polynomial(&SINE, z), r);
-    let start = z.times_from(L::splat(0.5), L::splat(1.0));
-    let cosine = (z * z).times_plus(polynomial(&COSINE, z), start);
-    L::quarter_turns(turns, sine, cosine)
-}
-
-#[inline(always)]
-fn polynomial<const W: usize, L: Lanes<W>>(rising: &[f64; 6], x: L) -> L {
-    let mut sum = L::splat(rising[5]);
-    for i in [4, 3, 2, 1, 0] {
-        sum = sum.times_plus(x, L::splat(rising[i]));
-    }
-    sum
-}
-
 /// The six error motions, and the lanes with an approach that is neither −1, 0 nor 1.
 #[inline(always)]
-fn errors_at<const W: usize, L: Lanes<W>>(
+fn errors_at<const W: usize, L: PoseLanes<W>>(
     motion: &Motion,
     inputs: &Inputs<'_>,
     at: usize,
@@ -467,7 +336,7 @@ fn uneven<const W: usize, L: Lanes<W>>(lookup: &super::pieces::Lookup, q: L) -> 
 }
 
 #[inline(always)]
-fn add_general<const W: usize, L: Lanes<W>>(
+fn add_general<const W: usize, L: PoseLanes<W>>(
     errors: &mut [L; 6],
     general: &General,
     q: L,

@@ -2,8 +2,8 @@
 
 use super::columns::DeviationColumns;
 use super::compensated::{CommandColumns, CompensationError, CompensationJob, Effort, newton};
-use super::lanes::Plain;
 use super::{BatchError, Job, kernel};
+use crate::lanes::Plain;
 
 pub(super) fn run_portable(
     job: &Job<'_>,

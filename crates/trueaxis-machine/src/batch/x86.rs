@@ -5,9 +5,12 @@
 
 use super::columns::DeviationColumns;
 use super::compensated::{CommandColumns, CompensationError, CompensationJob, Effort, newton};
-use super::lanes::Lanes;
+use super::lanes::PoseLanes;
 use super::pieces::Row;
-use super::{BatchError, InstructionSet, Job, kernel};
+use super::{BatchError, InstructionSet, Job, inverse, kernel};
+use crate::axis::MAX_AXES;
+use crate::inverse::{Aim, ClosedForm};
+use crate::lanes::{Lanes, Plain};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -83,11 +86,95 @@ fn compensate_with_avx512(
     newton::run::<8, EightPoses>(job, out)
 }
 
-/// Four poses; lives only inside [`with_avx2`] and [`compensate_with_avx2`].
+/// Both branches of the angles that aim the tool; for a processor with AVX2, else undecided.
+pub(super) fn aim_avx2<const N: usize>(
+    aim: &Aim,
+    axes: &[[f64; N]; 3],
+    out: &mut [[f64; N]; 4],
+) -> u64 {
+    if !has_avx2() {
+        return u64::MAX;
+    }
+    // SAFETY: the processor has AVX2 and FMA; asked three lines above.
+    unsafe { aim_with_avx2(aim, axes, out) }
+}
+
+/// The same for a processor with AVX-512.
+pub(super) fn aim_avx512<const N: usize>(
+    aim: &Aim,
+    axes: &[[f64; N]; 3],
+    out: &mut [[f64; N]; 4],
+) -> u64 {
+    if !has_avx512() {
+        return u64::MAX;
+    }
+    // SAFETY: the processor has AVX2, FMA and AVX-512F; asked three lines above.
+    unsafe { aim_with_avx512(aim, axes, out) }
+}
+
+#[target_feature(enable = "avx2,fma")]
+fn aim_with_avx2<const N: usize>(aim: &Aim, axes: &[[f64; N]; 3], out: &mut [[f64; N]; 4]) -> u64 {
+    inverse::aim_by::<4, N, FourPoses>(aim, axes, out)
+}
+
+#[target_feature(enable = "avx2,fma,avx512f")]
+fn aim_with_avx512<const N: usize>(
+    aim: &Aim,
+    axes: &[[f64; N]; 3],
+    out: &mut [[f64; N]; 4],
+) -> u64 {
+    inverse::aim_by::<8, N, EightPoses>(aim, axes, out)
+}
+
+/// The linear axes of commands; for a processor with AVX2, else the plain way.
+pub(super) fn place_avx2<const N: usize>(
+    form: &ClosedForm,
+    tips: &[[f64; N]; 3],
+    commands: &mut [[f64; N]; MAX_AXES],
+) {
+    if !has_avx2() {
+        return inverse::place_by::<4, N, Plain<4>>(form, tips, commands);
+    }
+    // SAFETY: the processor has AVX2 and FMA; asked three lines above.
+    unsafe { place_with_avx2(form, tips, commands) }
+}
+
+/// The same for a processor with AVX-512.
+pub(super) fn place_avx512<const N: usize>(
+    form: &ClosedForm,
+    tips: &[[f64; N]; 3],
+    commands: &mut [[f64; N]; MAX_AXES],
+) {
+    if !has_avx512() {
+        return inverse::place_by::<4, N, Plain<4>>(form, tips, commands);
+    }
+    // SAFETY: the processor has AVX2, FMA and AVX-512F; asked three lines above.
+    unsafe { place_with_avx512(form, tips, commands) }
+}
+
+#[target_feature(enable = "avx2,fma")]
+fn place_with_avx2<const N: usize>(
+    form: &ClosedForm,
+    tips: &[[f64; N]; 3],
+    commands: &mut [[f64; N]; MAX_AXES],
+) {
+    inverse::place_by::<4, N, FourPoses>(form, tips, commands);
+}
+
+#[target_feature(enable = "avx2,fma,avx512f")]
+fn place_with_avx512<const N: usize>(
+    form: &ClosedForm,
+    tips: &[[f64; N]; 3],
+    commands: &mut [[f64; N]; MAX_AXES],
+) {
+    inverse::place_by::<8, N, EightPoses>(form, tips, commands);
+}
+
+/// Four poses; lives only inside the functions with AVX2.
 #[derive(Clone, Copy)]
 struct FourPoses(__m256d);
 
-/// Eight poses; lives only inside [`with_avx512`] and [`compensate_with_avx512`].
+/// Eight poses; lives only inside the functions with AVX-512.
 #[derive(Clone, Copy)]
 struct EightPoses(__m512d);
 
@@ -196,6 +283,51 @@ impl Lanes<4> for FourPoses {
         }
     }
 
+    #[inline(always)]
+    fn square_root(self) -> Self {
+        // SAFETY: called inside `…with_avx2` only.
+        Self(unsafe { _mm256_sqrt_pd(self.0) })
+    }
+
+    #[inline(always)]
+    fn magnitude(self) -> Self {
+        // SAFETY: called inside `…with_avx2` only.
+        Self(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) })
+    }
+
+    #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        // SAFETY: called inside `…with_avx2` only.
+        Self(unsafe { _mm256_max_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn smaller(self, other: Self) -> Self {
+        // SAFETY: called inside `…with_avx2` only.
+        Self(unsafe { _mm256_min_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn signed_as(self, other: Self) -> Self {
+        // SAFETY: called inside `…with_avx2` only.
+        unsafe {
+            let sign = _mm256_set1_pd(-0.0);
+            let positive = _mm256_andnot_pd(sign, self.0);
+            Self(_mm256_or_pd(positive, _mm256_and_pd(sign, other.0)))
+        }
+    }
+
+    #[inline(always)]
+    fn where_above(self, limit: Self, then: Self, otherwise: Self) -> Self {
+        // SAFETY: called inside `…with_avx2` only.
+        unsafe {
+            let above = _mm256_cmp_pd::<_CMP_GT_OQ>(self.0, limit.0);
+            Self(_mm256_blendv_pd(otherwise.0, then.0, above))
+        }
+    }
+}
+
+impl PoseLanes<4> for FourPoses {
     #[inline(always)]
     fn errors(rows: &[Row], row: &[u32; 4], h: Self) -> [Self; 6] {
         let mut steps = [0.0; 4];
@@ -316,6 +448,52 @@ impl Lanes<8> for EightPoses {
         }
     }
 
+    #[inline(always)]
+    fn square_root(self) -> Self {
+        // SAFETY: called inside `…with_avx512` only.
+        Self(unsafe { _mm512_sqrt_pd(self.0) })
+    }
+
+    #[inline(always)]
+    fn magnitude(self) -> Self {
+        // SAFETY: called inside `…with_avx512` only.
+        Self(unsafe { _mm512_abs_pd(self.0) })
+    }
+
+    #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        // SAFETY: called inside `…with_avx512` only.
+        Self(unsafe { _mm512_max_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn smaller(self, other: Self) -> Self {
+        // SAFETY: called inside `…with_avx512` only.
+        Self(unsafe { _mm512_min_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn signed_as(self, other: Self) -> Self {
+        // SAFETY: called inside `…with_avx512` only.
+        unsafe {
+            let sign = _mm512_set1_epi64(i64::MIN);
+            let positive = _mm512_castpd_si512(_mm512_abs_pd(self.0));
+            let signed = _mm512_and_si512(sign, _mm512_castpd_si512(other.0));
+            Self(_mm512_castsi512_pd(_mm512_or_si512(positive, signed)))
+        }
+    }
+
+    #[inline(always)]
+    fn where_above(self, limit: Self, then: Self, otherwise: Self) -> Self {
+        // SAFETY: called inside `…with_avx512` only.
+        unsafe {
+            let above = _mm512_cmp_pd_mask::<_CMP_GT_OQ>(self.0, limit.0);
+            Self(_mm512_mask_blend_pd(above, otherwise.0, then.0))
+        }
+    }
+}
+
+impl PoseLanes<8> for EightPoses {
     #[inline(always)]
     fn errors(rows: &[Row], row: &[u32; 8], h: Self) -> [Self; 6] {
         let mut steps = [0.0; 8];

@@ -48,20 +48,20 @@ pub(crate) struct DirectionSolver {
     /// The tool axis with all aiming axes at zero.
     tool_at_zero: Vec3,
     /// Of the first two.
-    pair: Option<Pair>,
+    pub(super) pair: Option<Pair>,
 }
 
 /// Two rotary axes and the tool with both at zero: what of the triangle is the same for every
 /// direction.
 #[derive(Debug, Clone, Copy)]
-struct Pair {
-    a: Vec3,
-    b: Vec3,
-    v: Vec3,
-    beta: f64,
-    gamma: f64,
-    n: Vec3,
-    towards_b: Vec3,
+pub(super) struct Pair {
+    pub a: Vec3,
+    pub b: Vec3,
+    pub v: Vec3,
+    pub beta: f64,
+    pub gamma: f64,
+    pub n: Vec3,
+    pub towards_b: Vec3,
 }
 
 /// The angles of one branch, right-handed about each axis; `None` keeps the axis where it is.

@@ -17,7 +17,7 @@ pub(crate) struct Placer {
     /// From the workpiece to the tool: the fixed pose before each joint, and after the last.
     steps: Vec<Step>,
     /// The linear axes that place the tip: X Y Z before U V W.
-    placing: [usize; 3],
+    pub placing: [usize; 3],
     tip_mm: Vec3,
 }
 

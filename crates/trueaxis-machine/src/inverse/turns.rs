@@ -12,16 +12,109 @@ pub(super) const TIE_RAD: f64 = 1e-9;
 const SEAM_RAD: f64 = 1e-13;
 
 /// The same angle in (−π, π]; what rounding leaves beside −π is π, −0 is 0.
+#[inline]
 pub(crate) fn principal(q: f64) -> f64 {
+    if q.abs() < PI - SEAM_RAD {
+        return q + 0.0;
+    }
     let turned = q - TAU * (q / TAU).round();
     if turned <= -PI + SEAM_RAD { PI } else { turned.min(PI) + 0.0 }
 }
 
 /// The turn of `q` nearest to `near`; `q` itself if two are equally near.
 pub(crate) fn nearest(q: f64, near: f64) -> f64 {
+    if (near - q).abs() <= PI {
+        return q;
+    }
     let turns = (near - q) / TAU;
     let whole = (turns.abs() - 0.5 - TIE_RAD).ceil().max(0.0);
     q + TAU * whole.copysign(turns)
+}
+
+/// The turn of an angle nearest to where its axis is, within the travel if any is.
+pub(crate) fn nearest_inside(travel: Travel, q: f64, from: f64) -> f64 {
+    let near = nearest(q, from);
+    if travel.contains(near) {
+        return near;
+    }
+    let own = Some(q).filter(|&q| travel.contains(q));
+    let all = others(travel, q, from).chain(own);
+    let distance = |q: &f64| (q - from).abs();
+    all.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(near)
+}
+
+/// The two rotary axes of a machine that has no others.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RotaryPair {
+    /// In chain order.
+    pub axes: [usize; 2],
+    travels: [Travel; 2],
+    /// Least and largest angle that the travel contains.
+    ends: [[f64; 2]; 2],
+}
+
+impl RotaryPair {
+    pub fn of(machine: &Machine, axes: [usize; 2]) -> Self {
+        let travels = axes.map(|axis| machine.axes[axis].travel);
+        Self { axes, travels, ends: travels.map(|travel| travel.ends()) }
+    }
+
+    /// Of two branches with angles in [−π, π] the one that comes first in the order of [`in_order`]; and whether it is within the
+    /// travel.
+    #[inline]
+    pub fn nearer(&self, branches: [[f64; 2]; 2], from: &Command) -> ([f64; 2], bool) {
+        let from = self.axes.map(|axis| from[axis]);
+        let one = self.turned(branches[0], from);
+        let other = self.turned(branches[1], from);
+        let within = [self.is_within(one), self.is_within(other)];
+        if within[0] != within[1] {
+            return if within[0] { (one, true) } else { (other, true) };
+        }
+        let way = |q: [f64; 2]| {
+            let [first, second] = [q[0] - from[0], q[1] - from[1]];
+            (first * first + second * second).sqrt()
+        };
+        let ways = [way(other), way(one)];
+        (if comes_first(ways, other, one, from) { other } else { one }, within[0])
+    }
+
+    #[inline]
+    fn is_within(&self, q: [f64; 2]) -> bool {
+        let inside = |k: usize| self.ends[k][0] <= q[k] && q[k] <= self.ends[k][1];
+        inside(0) & inside(1)
+    }
+
+    /// The angles of a branch in the turns nearest to where the axes are.
+    #[inline]
+    fn turned(&self, angles: [f64; 2], from: [f64; 2]) -> [f64; 2] {
+        let q = [principal(angles[0]), principal(angles[1])];
+        let is_near = (q[0] - from[0]).abs() <= PI && (q[1] - from[1]).abs() <= PI;
+        if is_near && self.is_within(q) {
+            return q;
+        }
+        std::array::from_fn(|k| nearest_inside(self.travels[k], q[k], from[k]))
+    }
+}
+
+/// Whether the angles `a` of the first two axes come before `b`: the shorter way of all axes, the shorter way of the first axis, then a second angle that is
+/// not negative, then the smaller angles.
+#[inline]
+fn comes_first(ways: [f64; 2], a: [f64; 2], b: [f64; 2], from: [f64; 2]) -> bool {
+    let differs = |a: f64, b: f64| (a - b).abs() > TIE_RAD;
+    if differs(ways[0], ways[1]) {
+        return ways[0] < ways[1];
+    }
+    breaks_tie(a, b, from)
+}
+
+#[cold]
+fn breaks_tie(a: [f64; 2], b: [f64; 2], from: [f64; 2]) -> bool {
+    let differs = |a: f64, b: f64| (a - b).abs() > TIE_RAD;
+    let below = |q: [f64; 2]| f64::from(u8::from(q[1] < -TIE_RAD));
+    let keys: [&dyn Fn([f64; 2]) -> f64; 4] =
+        [&|q| (q[0] - from[0]).abs(), &below, &|q| q[0], &|q| q[1]];
+    let key = keys.into_iter().find(|key| differs(key(a), key(b)));
+    key.is_some_and(|key| key(a) < key(b))
 }
 
 /// The other turns of `q` to offer: all inside a travel, the nearest one of an endless axis.
@@ -66,18 +159,12 @@ pub(crate) fn in_order(machine: &Machine, commands: Vec<Command>, from: &Command
 /// Whether `a` comes before `b` in the order of [`in_order`], where neither is better by its travel.
 pub(crate) fn is_nearer(machine: &Machine, a: &Command, b: &Command, from: &Command) -> bool {
     let mut rotary = machine.rotary_axes();
-    let (first, second) = (rotary.next(), rotary.next());
-    let at = |c: &Command, axis: Option<usize>| axis.map_or(0.0, |i| c[i]);
+    let two = [rotary.next(), rotary.next()];
+    let pair = |c: &Command| two.map(|axis| axis.map_or(0.0, |i| c[i]));
     let way = |c: &Command| -> f64 {
         machine.rotary_axes().map(|i| (c[i] - from[i]).powi(2)).sum::<f64>().sqrt()
     };
-    let below = |c: &Command| f64::from(u8::from(at(c, second) < -TIE_RAD));
-    let keys: [&dyn Fn(&Command) -> f64; 5] =
-        [&way, &|c| (at(c, first) - at(from, first)).abs(), &below, &|c| at(c, first), &|c| {
-            at(c, second)
-        }];
-    let differs = |key: &&dyn Fn(&Command) -> f64| (key(a) - key(b)).abs() > TIE_RAD;
-    keys.into_iter().find(|key| differs(key)).is_some_and(|key| key(a) < key(b))
+    comes_first([way(a), way(b)], pair(a), pair(b), pair(from))
 }
 
 fn best(solutions: &[Solution], rotary: &[usize], from: &Command) -> Option<usize> {

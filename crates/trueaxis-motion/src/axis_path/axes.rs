@@ -104,8 +104,8 @@ impl AxisPath<'_> {
                 return Some(Element::straight(&begin, &end, length));
             }
             sampled(&begin, length, turned, &mut |u, _| {
-                let mut command = std::array::from_fn(|i| begin[i] + (end[i] - begin[i]) * u);
-                control.place(tip, &mut command).then_some(command)
+                let mut commands = u.map(|u| between(&begin, &end, u));
+                control.place_four(&[tip; 4], &mut commands).then_some(commands)
             })
         };
         self.announce(length, element, out);
@@ -195,6 +195,6 @@ impl AxisPath<'_> {
     }
 }
 
-fn between(begin: &Command, end: &Command, u: f64) -> Command {
+pub(super) fn between(begin: &Command, end: &Command, u: f64) -> Command {
     std::array::from_fn(|i| begin[i] + (end[i] - begin[i]) * u)
 }

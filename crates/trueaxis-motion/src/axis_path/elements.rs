@@ -15,8 +15,8 @@ const MOST_HALVINGS: u32 = 8;
 /// Differences below this part of a position are rounding.
 const ROUNDING: f64 = 2e-12;
 
-/// Axis positions at u = 0 … 1 of a move, near others; `None` where they cannot be reached.
-type Course<'a> = dyn FnMut(f64, &Command) -> Option<Command> + 'a;
+/// Axis positions at four u of a move one after the other, the first near others; `None` where one cannot be reached.
+type Course<'a> = dyn FnMut([f64; 4], &Command) -> Option<[Command; 4]> + 'a;
 
 impl AxisPath<'_> {
     /// From here on moves are handed out for the clock too, each before its nodes.
@@ -106,11 +106,10 @@ struct Sampler<'a, 'b> {
 impl Sampler<'_, '_> {
     /// From u0 to u1; returns the axes there.
     fn cell(&mut self, [u0, u1]: [f64; 2], begin: &Command, halvings: u32) -> Option<Command> {
-        let mut points = [*begin; 5];
-        for k in 1..5 {
-            let u = if k == 4 { u1 } else { u0 + (u1 - u0) * 0.25 * k as f64 };
-            points[k] = (self.course)(u, &points[k - 1])?;
-        }
+        let quarter = 0.25 * (u1 - u0);
+        let u = [u0 + quarter, u0 + 2.0 * quarter, u0 + 3.0 * quarter, u1];
+        let [one, two, three, four] = (self.course)(u, begin)?;
+        let points = [*begin, one, two, three, four];
         if halvings < MOST_HALVINGS && (0..MAX_AXES).any(|i| is_coarse(points.map(|q| q[i]))) {
             let middle = 0.5 * (u0 + u1);
             let there = self.cell([u0, middle], begin, halvings + 1)?;
@@ -210,10 +209,11 @@ mod tests {
     #[test]
     fn a_sampled_circle_has_its_curvature() {
         let length = 5.0 * std::f64::consts::PI;
-        let mut course = |u: f64, _: &Command| {
+        let place = |u: f64| {
             let (sin, cos) = (u * length / 10.0).sin_cos();
-            Some([10.0 * sin, 10.0 * (1.0 - cos), 0.0, 0.0, 0.0, 0.0])
+            [10.0 * sin, 10.0 * (1.0 - cos), 0.0, 0.0, 0.0, 0.0]
         };
+        let mut course = |u: [f64; 4], _: &Command| Some(u.map(place));
         let element = sampled(&[0.0; 6], length, 0.0, &mut course).unwrap();
         let most = |of: fn(&Part) -> f64| element.parts.iter().map(of).fold(0.0, f64::max);
         assert!((most(|p| p.bend[0]) / BETWEEN - 0.1).abs() < 1e-3);

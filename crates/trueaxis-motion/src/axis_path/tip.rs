@@ -1,9 +1,10 @@
 //! Moves of the tip, with tool-centre point or in a swivelled plane.
 
+use super::axes::between;
 use super::elements::sampled;
 use super::fault::{fault, too_many_pieces, unreachable};
 use super::{AxisPath, Fault, PathStep, Speed, fraction, path_length};
-use crate::basic::nearest;
+use crate::basic::{nearest, nearest_to};
 use crate::curve::Curve;
 use crate::densify::MOST_PIECES;
 use crate::orientation::{NoSwing, Swing};
@@ -30,6 +31,9 @@ struct TipMove<'a> {
 
 /// Basic coordinates and axes.
 type TipPose = (Vec3, Command);
+
+/// A tool axis that turns less than this from pose to pose may be held, rad; see [`nearest`].
+const HARDLY_RAD: f64 = 1e3 * trueaxis_machine::tcp::POLE_RAD;
 
 /// A piece is halved so often at most: near a pole an axis may jump however small the piece.
 const MOST_HALVINGS: u32 = 14;
@@ -120,6 +124,11 @@ impl AxisPath<'_> {
         if f64::from(self.pieces) > MOST_PIECES {
             return Err(too_many_pieces(tip_move.m));
         }
+        if let Turning::Swing(swing, None) = tip_move.turning
+            && self.rotary_way(&self.command, &command) > 0.0
+        {
+            self.aimed = (command, swing.at(u1));
+        }
         (self.basic, self.command) = (basic, command);
         out(self.next(tip_move.m, tip_move.length * (u1 - u0), tip_move.speed, u1 == 1.0));
         Ok(())
@@ -166,9 +175,7 @@ impl AxisPath<'_> {
     /// How the axes go on the whole move; `None` where they cannot.
     fn tip_element(&self, tip_move: &TipMove<'_>, turned: f64) -> Option<Element> {
         let (begin, length) = (&tip_move.begin, tip_move.length);
-        let mut at = |u: f64, near: &Command| {
-            self.tip_pose(tip_move, u, near).ok().map(|(_, command)| command)
-        };
+        let mut at = |u: [f64; 4], near: &Command| self.four_poses(tip_move, u, near);
         let Turning::Axes(end) = tip_move.turning else {
             return sampled(begin, length, turned, &mut at);
         };
@@ -180,7 +187,7 @@ impl AxisPath<'_> {
             return sampled(begin, length, turned.max(sweep), &mut at);
         }
         // Without rotary axes the linear ones follow the tip in a fixed frame.
-        let end = at(1.0, begin)?;
+        let end = self.tip_pose(tip_move, 1.0, begin).ok()?.1;
         let place = |basic: Vec3| {
             let mut command = *begin;
             let reached = tip_move.control.place(self.place_in_workpiece(basic), &mut command);
@@ -209,11 +216,12 @@ impl AxisPath<'_> {
         let begin = &tip_move.begin;
         let mut command = match tip_move.turning {
             Turning::Axes(end) if u == 1.0 => *end,
-            Turning::Axes(end) => std::array::from_fn(|i| begin[i] + (end[i] - begin[i]) * u),
+            Turning::Axes(end) => between(begin, end, u),
             Turning::Swing(_, Some(end)) if u == 1.0 => *end,
             Turning::Swing(swing, _) => {
                 let direction = Direction::of(swing.at(u)).unwrap_or(Direction::Z);
-                nearest(tip_move.control, direction, near)?
+                let axis = self.tool_axis(tip_move.control, near);
+                nearest_to(tip_move.control, direction, (near, axis))?
             }
         };
         let basic = self.in_basic(tip_move.curve.at(u));
@@ -225,6 +233,54 @@ impl AxisPath<'_> {
         Ok((basic, command))
     }
 
+    /// The axes at four u of a move of the tip, one after the other, the first near other axis positions.
+    fn four_poses(
+        &self,
+        tip_move: &TipMove<'_>,
+        u: [f64; 4],
+        near: &Command,
+    ) -> Option<[Command; 4]> {
+        let TipMove { control, begin, .. } = tip_move;
+        let mut commands = match tip_move.turning {
+            Turning::Axes(end) => u.map(|u| if u == 1.0 { *end } else { between(begin, end, u) }),
+            Turning::Swing(swing, _) if swing.travelled_rad() * (u[1] - u[0]) < HARDLY_RAD => {
+                return self.one_by_one(tip_move, u, near);
+            }
+            Turning::Swing(swing, end) => {
+                let directions = u.map(|u| Direction::of(swing.at(u)).unwrap_or(Direction::Z));
+                let mut commands = control.aim_four(&directions, near).ok()?;
+                if let (Some(end), 1.0) = (end, u[3]) {
+                    commands[3] = *end;
+                }
+                commands
+            }
+        };
+        let tips = u.map(|u| self.place_in_workpiece(self.in_basic(tip_move.curve.at(u))));
+        control.place_four(&tips, &mut commands).then_some(commands)
+    }
+
+    /// The same where the tool hardly turns and may keep its axes: each pose looks at the one before.
+    fn one_by_one(
+        &self,
+        tip_move: &TipMove<'_>,
+        u: [f64; 4],
+        near: &Command,
+    ) -> Option<[Command; 4]> {
+        let mut commands = [*near; 4];
+        let mut last = *near;
+        for (command, u) in commands.iter_mut().zip(u) {
+            last = self.tip_pose(tip_move, u, &last).ok()?.1;
+            *command = last;
+        }
+        Some(commands)
+    }
+
+    /// The tool axis at axis positions.
+    fn tool_axis(&self, control: &TipControl, command: &Command) -> Vec3 {
+        let (at, axis) = &self.aimed;
+        if at == command { *axis } else { control.tip_and_axis(command).1 }
+    }
+
     /// How the tool axis gets to the end of a move.
     fn turning(&self, control: &TipControl, m: &Move) -> Result<Turning, Fault> {
         let axes = self.other_axes(m);
@@ -232,7 +288,6 @@ impl AxisPath<'_> {
             Some(direction) => Some(self.direction_in_workpiece(m, direction)?),
             None => None,
         };
-        let (_, now) = control.tip_and_axis(&self.command);
         let cone = match self.orientation {
             OrientationPath::Axes => {
                 let Some(wanted) = wanted else { return Ok(Turning::Axes(axes)) };
@@ -247,6 +302,7 @@ impl AxisPath<'_> {
         // Angles under ORIVECT: their direction counts, and the axes end on them.
         let end = (wanted.is_none() && rotary).then_some(axes);
         let to = wanted.map(|d| d.vector()).or(end.map(|end| control.tip_and_axis(&end).1));
+        let now = self.tool_axis(control, &self.command);
         let swing = match cone {
             Some(cone) => {
                 let cone = self.cone_in_workpiece(&cone);

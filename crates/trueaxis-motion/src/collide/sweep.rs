@@ -176,6 +176,88 @@ impl Scene {
     }
 }
 
+/// How far the axes may go from where a sweep began before any pair can come closer than the clearance, whichever way they take.
+#[derive(Debug, Clone, Copy)]
+pub struct Room {
+    allowed: Allowed,
+    /// What is left of the least distance of a pair beyond the clearance, mm.
+    left_mm: f64,
+    /// How far any body moves at most as seen from any other, per mm and rad of each axis.
+    reach: Command,
+    /// How far each axis may still go: as far as `reach` was counted for.
+    ways: Command,
+}
+
+/// A room is counted for axes that go so far, mm and rad.
+const ROOM: [f64; 2] = [100.0, 0.2];
+
+impl Room {
+    /// Takes the way between two commands off; `false` if there is no room for it, or other pairs count there.
+    pub fn take(&mut self, from: &Command, to: &Command, allowed: Allowed) -> bool {
+        let mut is_counted = allowed == self.allowed;
+        for axis in 0..MAX_AXES {
+            let way = (to[axis] - from[axis]).abs();
+            self.ways[axis] -= way;
+            self.left_mm -= way * self.reach[axis];
+            is_counted &= self.ways[axis] >= 0.0;
+        }
+        // NaN is no room.
+        is_counted && self.left_mm > 0.0
+    }
+}
+
+impl Scene {
+    /// The room around the place where a sweep began that found no contact.
+    ///
+    /// A body moves in the frame of another by no more than the ways of the axes between them, of rotary ones times its distance from
+    /// the axis: |Δ| ≤ Σ w_k (linear) + Σ φ_k (r_k + b_k), r_k where the sweep began and b_k what axes further out have added to it.
+    pub fn room(&self, sweep: &Sweep<'_>) -> Room {
+        let watch = sweep.clearance_mm.max(0.5 * sweep.resolution_mm);
+        let mut left_mm = f64::INFINITY;
+        for pair in self.pairs.iter().filter(|pair| !self.is_allowed(pair, sweep.allowed)) {
+            let known = || self.known_mm(pair, &self.relative(pair));
+            let free_mm = self.free_mm(pair).max(known());
+            left_mm = left_mm.min(free_mm - watch);
+        }
+        let way = |i: usize| match self.axes.get(i).map(|axis| axis.kind) {
+            Some(AxisKind::Rotary) => ROOM[1],
+            _ => ROOM[0],
+        };
+        let ways: Command = std::array::from_fn(way);
+        let mut reach = Command::default();
+        for member in 0..self.members.len() {
+            for (most, of_member) in reach.iter_mut().zip(self.reach_of(member, &ways)) {
+                *most = most.max(of_member);
+            }
+        }
+        Room { allowed: sweep.allowed, left_mm, reach, ways }
+    }
+
+    /// How far a member moves at most per mm and rad of each axis that carries it, while axes go no farther than these ways.
+    fn reach_of(&self, member: usize, ways: &Command) -> Command {
+        let (level, side) = self.level(member);
+        let own = &self.members[member];
+        let centre = own.now.turn * own.mesh.centre_mm() + own.now.shift_mm;
+        let (mut reach, mut beyond) = (Command::default(), 0.0);
+        for step in (1..=level).rev() {
+            let body = match side {
+                1 => self.workpiece_side + step - 1,
+                _ => self.workpiece_side - step,
+            };
+            let Some(i) = self.axis_of[body] else { continue };
+            reach[i] = ERROR_SLOPE
+                * match self.axes[i].kind {
+                    AxisKind::Linear => 1.0,
+                    AxisKind::Rotary => {
+                        self.reach_mm(body, i, &centre) + own.mesh.radius_mm() + beyond
+                    }
+                };
+            beyond += ways[i] * reach[i];
+        }
+        reach
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -250,5 +332,69 @@ mod tests {
                 );
             }
         }
+    }
+
+    /// A walk of small steps among blocks: where the room says that nothing can be near, a scene that knows nothing finds nothing; and
+    /// many steps are in a room.
+    #[test]
+    fn law_in_a_room_nothing_is_near() {
+        let machine = Machine::check("m.toml", TEXT, &NoTables).0.unwrap();
+        let block = |(node, shift): (Option<usize>, Vec3)| BodyModel {
+            name: format!("{node:?} {shift:?}"),
+            node,
+            placement: Pose::shift(shift),
+            role: Role::Machine,
+            mesh: Mesh::new(cuboid(Vec3::new(30.0, 20.0, 25.0))).unwrap(),
+        };
+        let last = machine.bodies().len() - 1;
+        let models = || {
+            [
+                (Some(0), Vec3::new(40.0, -60.0, 20.0)),
+                (Some(0), Vec3::new(-80.0, 30.0, 20.0)),
+                (None, Vec3::new(150.0, 0.0, -200.0)),
+                (Some(last), Vec3::new(0.0, 0.0, 120.0)),
+                (Some(last), Vec3::new(60.0, 0.0, 200.0)),
+            ]
+            .map(block)
+            .to_vec()
+        };
+        let new = || Scene::new(&machine, models(), &ToolShape::none(), Vec::new());
+        let poses_at = |c: &Command| machine.body_poses(c, &ErrorValues::default());
+        let (mut scene, mut room): (Scene, Option<Room>) = (new(), None);
+        let (mut state, mut at) = (11_u64, Command::default());
+        let mut random = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            2.0 * (state >> 11) as f64 / (1_u64 << 53) as f64 - 1.0
+        };
+        let (mut free, mut near) = (0, 0);
+        let mut goal = at;
+        for step in 0..3000 {
+            if step % 50 == 0 {
+                goal = [2.0, 0.6, 80.0, 80.0, 80.0, 1.0].map(|most| most * random());
+            }
+            let part = 1.0 / f64::from(50 - step % 50);
+            let to: Command = std::array::from_fn(|i| at[i] + part * (goal[i] - at[i]));
+            let allowed = Allowed::default();
+            let sweep =
+                Sweep { from: &at, to: &to, clearance_mm: 2.0, resolution_mm: 0.5, allowed };
+            let mut found = Vec::new();
+            if room.as_mut().is_some_and(|room| room.take(&at, &to, allowed)) {
+                free += 1;
+                new().sweep(&poses_at, &sweep, &mut found);
+                assert!(found.is_empty(), "{step}: {found:?}");
+            } else {
+                scene.sweep(&poses_at, &sweep, &mut found);
+                near += u32::from(!found.is_empty());
+                room = found.is_empty().then(|| scene.room(&sweep));
+                room = room.filter(|room| { *room }.take(&at, &to, allowed));
+                if let Some(room) = &mut room {
+                    room.take(&at, &to, allowed);
+                }
+            }
+            at = to;
+        }
+        assert!(free > 700 && near > 30, "{free} {near}");
     }
 }

@@ -29,13 +29,13 @@ impl Stand {
     pub fn off_segment(&self, a: &Self, b: &Self, bend: &Vec3) -> [f64; 2] {
         let way = b.tip - a.tip;
         let length = way.norm_squared();
-        let whole = angle(&a.axis, &b.axis);
         let u = if length > 1e-12 {
             (self.tip - a.tip).dot(&way) / length
-        } else if whole > 0.0 {
-            angle(&a.axis, &self.axis) / whole
         } else {
-            1.0
+            match angle(&a.axis, &b.axis) {
+                whole if whole > 0.0 => angle(&a.axis, &self.axis) / whole,
+                _ => 1.0,
+            }
         };
         let u = u.clamp(0.0, 1.0);
         let chord = a.between(b, u);

@@ -73,6 +73,17 @@ impl Modes {
     }
 }
 
+/// Whether there may be a word that changes what lasts.
+fn has_modes(source: &[u8]) -> bool {
+    const WORDS: [&[u8]; 4] = [b"G91", b"G20", b"G70", b"INCH"];
+    let begins = |i: usize, word: &[u8]| {
+        source.get(i..i + word.len()).is_some_and(|w| w.eq_ignore_ascii_case(word))
+    };
+    let is_first = |byte: &u8| matches!(byte, b'G' | b'g' | b'I' | b'i');
+    let mut firsts = source.iter().enumerate().filter(|(_, byte)| is_first(byte));
+    firsts.any(|(i, _)| WORDS.iter().any(|word| begins(i, word)))
+}
+
 impl<'p> Text<'p> {
     pub fn of(program: &'p Program) -> Self {
         let source = program.source();
@@ -88,8 +99,7 @@ impl<'p> Text<'p> {
             }
         }
         let lines = vec![Line::AsItWas; starts.len()];
-        let any = |word: &[u8]| source.windows(word.len()).any(|w| w.eq_ignore_ascii_case(word));
-        let has_modes = [&b"G91"[..], b"G20", b"G70", b"INCH"].into_iter().any(any);
+        let has_modes = has_modes(source);
         Self { program, starts, lines, modes: (0, Modes::default()), has_modes, executed: false }
     }
 

@@ -226,11 +226,8 @@ impl Observer for Compare<'_> {
             if self.ended {
                 continue;
             }
-            let pose = batch.poses.at(i);
-            let is = Stand {
-                tip: pose.nominal_tip.vector() + pose.tip_mm,
-                axis: pose.nominal_axis.vector() + pose.axis,
-            };
+            let [tip, axis, tip_off, axis_off] = batch.poses.vectors_at(i);
+            let is = Stand { tip: tip + tip_off, axis: axis + axis_off };
             if node.last {
                 self.ended = true;
                 self.end(last, &is);

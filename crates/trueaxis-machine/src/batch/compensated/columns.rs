@@ -32,11 +32,11 @@ impl<'a> CommandColumns<'a> {
     }
 
     /// How many axes.
-    pub(super) fn axes(&self) -> usize {
+    pub(in crate::batch) fn axes(&self) -> usize {
         self.axes
     }
 
-    pub(super) fn lengths(&self) -> impl Iterator<Item = usize> {
+    pub(in crate::batch) fn lengths(&self) -> impl Iterator<Item = usize> {
         self.columns[..self.axes.min(MAX_AXES)].iter().map(|column| column.len())
     }
 
@@ -61,7 +61,7 @@ impl<'a> CommandColumns<'a> {
     }
 
     /// The columns of the axes.
-    pub(super) fn each(&mut self) -> &mut [&'a mut [f64]] {
+    pub(in crate::batch) fn each(&mut self) -> &mut [&'a mut [f64]] {
         &mut self.columns[..self.axes]
     }
 

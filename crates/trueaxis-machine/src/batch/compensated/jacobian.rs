@@ -3,12 +3,12 @@
 
 use super::FastForm;
 use super::newton::Group;
-use crate::batch::kernel::{
-    lanes_at, product, rotation, sine_cosine, slide, slide_along, splat3, splat33, sum,
-    turn_pair_about,
-};
-use crate::batch::lanes::Lanes;
+use crate::batch::kernel::lanes_at;
 use crate::batch::steps::Step;
+use crate::lanes::vectors::{
+    cross, product, rotation, slide, slide_along, splat3, splat33, sum, turn_pair_about,
+};
+use crate::lanes::{Lanes, sine_cosine};
 
 /// How the nominal tool moves per unit of the axes that compensate, and where it is.
 pub(super) struct Columns<L> {
@@ -111,13 +111,4 @@ fn add_turn<const W: usize, L: Lanes<W>>(
             all.axis[slot] = cross(splat3(per_unit), all.wanted[1]);
         }
     }
-}
-
-#[inline(always)]
-pub(super) fn cross<const W: usize, L: Lanes<W>>(a: [L; 3], b: [L; 3]) -> [L; 3] {
-    [
-        a[1].times_minus(b[2], a[2] * b[1]),
-        a[2].times_minus(b[0], a[0] * b[2]),
-        a[0].times_minus(b[1], a[1] * b[0]),
-    ]
 }

@@ -1,13 +1,15 @@
 //! W poses at a time to their compensated commands (docs/model.md eq. 163); generic over the vector instructions, with the
 //! habits of `kernel.rs`.
 
-use super::jacobian::{Columns, columns, cross};
+use super::jacobian::{Columns, columns};
 use super::{CommandColumns, CompensationError, CompensationJob, Effort, FastForm, one};
 use crate::axis::MAX_AXES;
 use crate::batch::Inputs;
-use crate::batch::kernel::{State, difference, dot, poses, splat3, sum};
-use crate::batch::lanes::Lanes;
+use crate::batch::kernel::{State, poses};
+use crate::batch::lanes::PoseLanes;
 use crate::compensate::{FLAT, MET_MM, MET_RAD};
+use crate::lanes::Lanes;
+use crate::lanes::vectors::{cross, difference, dot, splat3, sum};
 
 /// Evaluations of the chain after which a pose goes to the scalar path.
 const MOST_EVALUATIONS: u32 = 8;
@@ -34,7 +36,7 @@ pub(super) struct Group<const W: usize> {
 
 /// Computes a job.
 #[inline(always)]
-pub(in crate::batch) fn run<const W: usize, L: Lanes<W>>(
+pub(in crate::batch) fn run<const W: usize, L: PoseLanes<W>>(
     job: &CompensationJob<'_>,
     out: &mut CommandColumns<'_>,
 ) -> Result<Effort, CompensationError> {
@@ -69,7 +71,7 @@ fn by_scalar(
 
 /// The lanes that are compensated and written, and the evaluations of all of them.
 #[inline(always)]
-fn group<const W: usize, L: Lanes<W>>(
+fn group<const W: usize, L: PoseLanes<W>>(
     job: &CompensationJob<'_>,
     out: &mut CommandColumns<'_>,
     at: usize,
@@ -118,7 +120,7 @@ fn group<const W: usize, L: Lanes<W>>(
 /// limit, the step is made and not evaluated again. `now` and `before` are the squares of the residual
 /// errors of tip and tool axis; `before` is zero at the first step, so that it is evaluated.
 #[inline(always)]
-fn not_met<const W: usize, L: Lanes<W>>(
+fn not_met<const W: usize, L: PoseLanes<W>>(
     fast: &FastForm,
     now: [L; 2],
     before: [L; 2],
