@@ -183,6 +183,11 @@ fn other_line() -> impl Strategy<Value = String> {
         "L IX+1 F100",
         "L A+20 C-370 F9",
         "L X+1 RL F9",
+        "L X+1 FU0.2",
+        "L X+1 FZ.1",
+        "APPR LN X+5 Y+5 LEN5",
+        "APPR CT X+5 Y+5 CCA90 R+3",
+        "LN X+1 TX+1 TY+0 TZ+1\nL A+5 FMAX\nL X+1 FMAX\nL M140 MB5",
         "L X+9 R0",
     ])
     .prop_map(str::to_owned)
