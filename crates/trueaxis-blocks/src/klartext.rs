@@ -132,21 +132,25 @@ impl<'s> Cursor<'s> {
         Self { source, tokens: &line.tokens, at: 0, taken: 0, start, depth: 0 }
     }
 
+    #[inline]
     fn token(&self) -> Option<Token> {
         self.tokens.get(self.at).copied()
     }
 
     /// Whether nothing follows.
+    #[inline]
     pub fn done(&self) -> bool {
         self.at >= self.tokens.len()
     }
 
+    #[inline]
     fn advance(&mut self) {
         self.at += 1;
         self.taken = 0;
     }
 
     /// The byte of the next word, or the offset after the last one.
+    #[inline]
     pub fn offset(&self) -> usize {
         match self.token() {
             Some(token) => token.start + self.taken,
@@ -155,6 +159,7 @@ impl<'s> Cursor<'s> {
     }
 
     /// The letters that stand here.
+    #[inline]
     pub fn letters(&self) -> &'s [u8] {
         match self.token() {
             Some(t) if matches!(t.kind, TokenKind::Letter | TokenKind::Word) => {
@@ -185,6 +190,7 @@ impl<'s> Cursor<'s> {
     }
 
     /// Takes some of the letters that stand here.
+    #[inline]
     pub fn take_letters(&mut self, count: usize) {
         if count >= self.letters().len() {
             self.advance();
@@ -194,6 +200,7 @@ impl<'s> Cursor<'s> {
     }
 
     /// Whether the next word is this one.
+    #[inline]
     pub fn is(&self, word: &str) -> bool {
         self.letters().eq_ignore_ascii_case(word.as_bytes())
     }
@@ -204,6 +211,7 @@ impl<'s> Cursor<'s> {
     }
 
     /// Takes a whole key word.
+    #[inline]
     pub fn accept(&mut self, word: &str) -> bool {
         let found = self.is(word);
         if found {
@@ -218,6 +226,7 @@ impl<'s> Cursor<'s> {
     }
 
     /// The next sign, if a sign follows.
+    #[inline]
     pub fn symbol(&self) -> Option<u8> {
         let sign =
             |t: &Token| matches!(t.kind, TokenKind::Symbol | TokenKind::Mark | TokenKind::Skip);
@@ -225,6 +234,7 @@ impl<'s> Cursor<'s> {
     }
 
     /// Takes a sign if it follows.
+    #[inline]
     pub fn accept_symbol(&mut self, symbol: u8) -> bool {
         let found = self.symbol() == Some(symbol);
         if found {
@@ -239,6 +249,7 @@ impl<'s> Cursor<'s> {
     }
 
     /// Whether a number follows.
+    #[inline]
     pub fn is_number(&self) -> bool {
         self.token().is_some_and(|t| t.kind == TokenKind::Number)
     }
@@ -253,6 +264,7 @@ impl<'s> Cursor<'s> {
     }
 
     /// An unsigned number.
+    #[inline]
     pub fn number(&mut self) -> Result<Option<f64>, Fault> {
         let Some(token) = self.token().filter(|t| t.kind == TokenKind::Number) else {
             return Ok(None);

@@ -10,6 +10,7 @@
 pub mod code;
 mod common_codes;
 pub mod dialect;
+pub mod digits;
 mod fanuc;
 mod haas;
 mod heidenhain;

@@ -17,6 +17,7 @@
 
 mod columns;
 mod compensated;
+mod groups;
 mod inverse;
 mod kernel;
 mod lanes;

@@ -88,7 +88,7 @@ fn law_a_batch_of_targets_is_the_control_pose_by_pose() {
                 let (tip, axis) = control.tip_and_axis(&found);
                 assert!((tip - path.tips[i]).norm() < 1e-9, "{name} {set:?} {i}");
                 assert!((axis - path.axes[i]).norm() < 1e-12, "{name} {set:?} {i}");
-                // Near a pole the angle of the axis there is as rounding has it; nowhere else.
+                // Near a pole the angle of the axis there is as rounding makes it; nowhere else.
                 let sine = control.pole_sine(wanted).max(1e-9);
                 for (k, axis) in machine.axes().iter().enumerate() {
                     let reach = if "XYZ".contains(axis.name.letter()) { 2e3 } else { 1.0 };

@@ -25,7 +25,7 @@ pub struct Collisions {
     scene: Scene,
     tool: u32,
     before: Option<(Command, f64)>,
-    /// What was free around the last place that was looked at.
+    /// What was free around the last place that was checked.
     room: Option<Room>,
     contacts: Vec<Contact>,
     /// How much work the check was so far, and how much it may be.

@@ -35,7 +35,7 @@ fn written_for(control: Control) -> String {
         Control::Heidenhain => {
             let lines = text.lines().skip(2).map(|l| l.replacen("G1 ", "L ", 1));
             let lines = lines.map(|l| l.replace(['X', 'Y', 'Z', 'A', 'C'], "").to_owned() + "\n");
-            // Klartext writes signs: L X+1.5 Y-2.
+            // Klartext has block numbers and signs: 7 L X+1.5 Y-2.
             let signed = |l: String| {
                 let mut words = l.split_whitespace();
                 let head = words.next().unwrap_or_default().to_owned();
@@ -45,8 +45,9 @@ fn written_for(control: Control) -> String {
                 });
                 named.fold(head, |line, word| line + &word) + "\n"
             };
-            let body: String = lines.map(signed).collect();
-            format!("BEGIN PGM BENCH MM\n{body}END PGM BENCH MM\n")
+            let numbered = |(i, line): (usize, String)| format!("{} {}", i + 1, signed(line));
+            let body: String = lines.enumerate().map(numbered).collect();
+            format!("0 BEGIN PGM BENCH MM\n{body}{} END PGM BENCH MM\n", LINES + 1)
         }
         Control::Fanuc | Control::Haas | Control::LinuxCnc => text,
     }

@@ -13,6 +13,7 @@ mod modes;
 mod own_codes;
 pub(crate) mod radius;
 mod stop;
+pub(crate) mod straight;
 pub(crate) mod values;
 
 use std::collections::BTreeMap;

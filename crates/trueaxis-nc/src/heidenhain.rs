@@ -29,6 +29,7 @@ mod patterns;
 mod plane;
 mod radius;
 mod statements;
+mod straight;
 mod thread_mill;
 mod tools;
 mod values;
@@ -110,9 +111,11 @@ impl<'r> Language<'r> for Run<'r> {
     }
 
     fn advance(&mut self, line: &mut Line) -> Result<Next, Fault> {
+        let Some(active) = self.stack.last() else { return Ok(Next::Finished) };
+        let program = Rc::clone(&self.core.programs[active.program]);
+        self.straight_lines(program.source());
         let Some(active) = self.stack.last_mut() else { return Ok(Next::Finished) };
         let (number, at) = (active.program, active.at);
-        let program = Rc::clone(&self.core.programs[number]);
         self.core.begin(number, at, active.line);
         if at >= program.source().len() {
             return self.end_of_text(&program).map_err(|fault| self.core.for_good(fault));

@@ -100,6 +100,23 @@ fn three_controls_round_and_cut_alike() {
     assert_eq!(k.len(), 10);
 }
 
+/// A rounding is seen whatever stands between the number of its block and RND, and after comments.
+#[test]
+fn blanks_and_comments_before_a_rounding_change_nothing() {
+    let with = |between: &str, rounding: &str| {
+        let text =
+            format!("1 L X+0 Y+0 Z-1 R0 F100\n2 L X+20\n{between}3{rounding}RND R4\n4 L Y+20\n");
+        shown(&sound(Control::Heidenhain, &text))
+    };
+    let plain = with("", " ");
+    assert_eq!(plain.len(), 4);
+    for (between, rounding) in
+        [("", "\t"), ("", ""), ("; corner\n\n* - side\n", " \t "), ("\r\n", "  ")]
+    {
+        assert_close(&with(between, rounding), &plain, "rounding");
+    }
+}
+
 /// CHF is the length of the chamfer, CHR its legs: at a right angle CHF = √2 · CHR.
 #[test]
 fn sinumerik_chamfers_by_length_and_leg_and_modal_roundings() {

@@ -187,6 +187,7 @@ proptest! {
                     'G' | 'g' => text += &format!("{letter}{} ", i32::from(value > 0.0)),
                     'N' => text += &format!("N{exponent} "),
                     'F' | 'f' => text += &format!("{letter}{:.digits$}", value.abs()),
+                    _ if exponent % 2 == 0 => text += &format!("{letter}{value:+.digits$}"),
                     _ => text += &format!("{letter}{value:.digits$}"),
                 }
             }

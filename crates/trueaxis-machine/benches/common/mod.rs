@@ -64,6 +64,7 @@ pub fn machine() -> Machine {
 }
 
 /// Random positions within the tables (splitmix64).
+#[allow(dead_code, reason = "not every bench draws poses")]
 pub fn commands() -> Vec<Vec<f64>> {
     let mut state = 1_u64;
     let mut unit = move || {
@@ -124,6 +125,7 @@ fn cpu_seconds() -> f64 {
 }
 
 /// So many threads.
+#[allow(dead_code, reason = "not every bench has threads")]
 pub fn pool(threads: usize) -> rayon::ThreadPool {
     rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads")
 }

@@ -8,10 +8,11 @@
 //! Poles, and directions where two branches meet, are left to the scalar form, so every target has the result that
 //! [`TipControl::aim_nearest`] and [`TipControl::place`] give, to 1e-12 rad and 1e-9 mm.
 
+use super::groups::{aim_by, place_by};
 use super::{BatchError, CommandColumns, InstructionSet};
 use crate::axis::{Command, MAX_AXES};
 use crate::inverse::{Aim, ClosedForm, SolveError};
-use crate::lanes::{Lanes, Plain};
+use crate::lanes::Plain;
 use crate::tcp::TipControl;
 use crate::{FollowError, FollowFault, Machine};
 use trueaxis_geometry::Vec3;
@@ -231,7 +232,7 @@ impl TipControl {
         axes: &[Direction<trueaxis_geometry::frame::Workpiece>; 4],
         from: &Command,
     ) -> Result<[Command; 4], SolveError> {
-        let vectors = axes.map(|axis| axis.vector());
+        let vectors = axes.map(Direction::vector);
         let columns = std::array::from_fn(|k| std::array::from_fn(|i| vectors[i][k]));
         let mut angles = [[0.0; 4]; 4];
         let aim = self.two_axes();
@@ -283,61 +284,5 @@ fn place<const N: usize>(
         #[cfg(target_arch = "x86_64")]
         InstructionSet::Avx2 => super::x86::place_avx2(form, tips, commands),
         _ => place_by::<4, N, Plain<4>>(form, tips, commands),
-    }
-}
-
-#[inline(always)]
-pub(super) fn aim_by<const W: usize, const N: usize, L: Lanes<W>>(
-    aim: &Aim,
-    axes: &[[f64; N]; 3],
-    out: &mut [[f64; N]; 4],
-) -> u64 {
-    let mut undecided = 0;
-    for at in (0..N).step_by(W) {
-        let u = [lanes(&axes[0], at), lanes(&axes[1], at), lanes(&axes[2], at)];
-        let ([one, other], bits) = aim.branches::<W, L>(u);
-        undecided |= u64::from(bits) << at;
-        put(&mut out[0], at, one[0]);
-        put(&mut out[1], at, one[1]);
-        put(&mut out[2], at, other[0]);
-        put(&mut out[3], at, other[1]);
-    }
-    undecided
-}
-
-#[inline(always)]
-pub(super) fn place_by<const W: usize, const N: usize, L: Lanes<W>>(
-    form: &ClosedForm,
-    tips: &[[f64; N]; 3],
-    commands: &mut [[f64; N]; MAX_AXES],
-) {
-    for at in (0..N).step_by(W) {
-        let tip = [lanes(&tips[0], at), lanes(&tips[1], at), lanes(&tips[2], at)];
-        let mut q = [L::splat(0.0); MAX_AXES];
-        for axis in 0..MAX_AXES {
-            q[axis] = lanes(&commands[axis], at);
-        }
-        let sines = form.sines(&q);
-        let placed = form.place(tip, &q, &sines);
-        for k in 0..3 {
-            // −0 is 0.
-            put(&mut commands[form.placing[k]], at, placed[k] + L::splat(0.0));
-        }
-    }
-}
-
-#[inline(always)]
-fn lanes<const W: usize, const N: usize, L: Lanes<W>>(column: &[f64; N], at: usize) -> L {
-    match column[at..].first_chunk() {
-        Some(lanes) => L::load(lanes),
-        // Not reached: N is a multiple of W.
-        None => L::splat(f64::NAN),
-    }
-}
-
-#[inline(always)]
-fn put<const W: usize, const N: usize, L: Lanes<W>>(column: &mut [f64; N], at: usize, value: L) {
-    if let Some(to) = column[at..].first_chunk_mut() {
-        value.store(to);
     }
 }

@@ -7,7 +7,7 @@ use super::columns::DeviationColumns;
 use super::compensated::{CommandColumns, CompensationError, CompensationJob, Effort, newton};
 use super::lanes::PoseLanes;
 use super::pieces::Row;
-use super::{BatchError, InstructionSet, Job, inverse, kernel};
+use super::{BatchError, InstructionSet, Job, groups, kernel};
 use crate::axis::MAX_AXES;
 use crate::inverse::{Aim, ClosedForm};
 use crate::lanes::{Lanes, Plain};
@@ -114,7 +114,7 @@ pub(super) fn aim_avx512<const N: usize>(
 
 #[target_feature(enable = "avx2,fma")]
 fn aim_with_avx2<const N: usize>(aim: &Aim, axes: &[[f64; N]; 3], out: &mut [[f64; N]; 4]) -> u64 {
-    inverse::aim_by::<4, N, FourPoses>(aim, axes, out)
+    groups::aim_by::<4, N, FourPoses>(aim, axes, out)
 }
 
 #[target_feature(enable = "avx2,fma,avx512f")]
@@ -123,7 +123,7 @@ fn aim_with_avx512<const N: usize>(
     axes: &[[f64; N]; 3],
     out: &mut [[f64; N]; 4],
 ) -> u64 {
-    inverse::aim_by::<8, N, EightPoses>(aim, axes, out)
+    groups::aim_by::<8, N, EightPoses>(aim, axes, out)
 }
 
 /// The linear axes of commands; for a processor with AVX2, else the plain way.
@@ -133,7 +133,7 @@ pub(super) fn place_avx2<const N: usize>(
     commands: &mut [[f64; N]; MAX_AXES],
 ) {
     if !has_avx2() {
-        return inverse::place_by::<4, N, Plain<4>>(form, tips, commands);
+        return groups::place_by::<4, N, Plain<4>>(form, tips, commands);
     }
     // SAFETY: the processor has AVX2 and FMA; asked three lines above.
     unsafe { place_with_avx2(form, tips, commands) }
@@ -146,7 +146,7 @@ pub(super) fn place_avx512<const N: usize>(
     commands: &mut [[f64; N]; MAX_AXES],
 ) {
     if !has_avx512() {
-        return inverse::place_by::<4, N, Plain<4>>(form, tips, commands);
+        return groups::place_by::<4, N, Plain<4>>(form, tips, commands);
     }
     // SAFETY: the processor has AVX2, FMA and AVX-512F; asked three lines above.
     unsafe { place_with_avx512(form, tips, commands) }
@@ -158,7 +158,7 @@ fn place_with_avx2<const N: usize>(
     tips: &[[f64; N]; 3],
     commands: &mut [[f64; N]; MAX_AXES],
 ) {
-    inverse::place_by::<4, N, FourPoses>(form, tips, commands);
+    groups::place_by::<4, N, FourPoses>(form, tips, commands);
 }
 
 #[target_feature(enable = "avx2,fma,avx512f")]
@@ -167,7 +167,7 @@ fn place_with_avx512<const N: usize>(
     tips: &[[f64; N]; 3],
     commands: &mut [[f64; N]; MAX_AXES],
 ) {
-    inverse::place_by::<8, N, EightPoses>(form, tips, commands);
+    groups::place_by::<8, N, EightPoses>(form, tips, commands);
 }
 
 /// Four poses; lives only inside the functions with AVX2.

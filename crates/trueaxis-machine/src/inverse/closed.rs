@@ -351,7 +351,7 @@ mod tests {
         }
     }
 
-    /// Both branches are those of the triangle, close to the poles too; what is left to the scalar form is near one.
+    /// Both branches are those of the triangle, close to the poles too; what the scalar form has to decide is near one.
     #[test]
     fn law_the_branches_are_those_of_the_triangle() {
         for text in MACHINES {

@@ -180,7 +180,7 @@ impl Scene {
 #[derive(Debug, Clone, Copy)]
 pub struct Room {
     allowed: Allowed,
-    /// What is left of the least distance of a pair beyond the clearance, mm.
+    /// What remains of the least distance of a pair beyond the clearance, mm.
     left_mm: f64,
     /// How far any body moves at most as seen from any other, per mm and rad of each axis.
     reach: Command,

@@ -258,6 +258,11 @@ impl<'r> Core<'r> {
         self.reported_frame
     }
 
+    /// Whether a fault is to be reported after its block.
+    pub(super) fn has_fault(&self) -> bool {
+        self.fault.is_some()
+    }
+
     /// A fault that shows after the words that cause it.
     pub(super) fn hold_fault(&mut self, fault: Fault) {
         self.fault.get_or_insert(fault);

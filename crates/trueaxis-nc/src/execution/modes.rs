@@ -47,6 +47,12 @@ impl Modes {
         if self.inches { 25.4 } else { 1.0 }
     }
 
+    /// The factor of F in Klartext to mm/min: in inches it counts tenths of an inch.
+    #[inline]
+    pub fn unit_of_klartext_feed(&self) -> f64 {
+        if self.inches { 2.54 } else { 1.0 }
+    }
+
     /// The factor of a word of an axis to mm or degrees.
     #[inline]
     pub fn scale(&self, axis: Axis) -> f64 {

@@ -41,7 +41,7 @@ impl Run<'_> {
         if value(249) <= 0.0 {
             return Err(mistakes::missing_depth(at));
         }
-        let unit = if self.core.modes.inches { 2.54 } else { 1.0 };
+        let unit = self.core.modes.unit_of_klartext_feed();
         let feed = |q: u32| Feed { mode: FeedMode::PerMinute, value: value(q) * unit };
         for q in [253, 254] {
             check_feed(&feed(q), at)?;

@@ -106,7 +106,7 @@ impl Run<'_> {
     }
 
     fn per_minute(&self, value: f64) -> Feed {
-        let scale = if self.core.modes.inches { 2.54 } else { 1.0 };
+        let scale = self.core.modes.unit_of_klartext_feed();
         Feed { mode: FeedMode::PerMinute, value: value * scale }
     }
 

@@ -271,7 +271,7 @@ impl Run<'_> {
             if value <= 0.0 {
                 return Err(fault("zero-feed", at, "the feed is zero", "write F100"));
             }
-            let scale = if self.core.modes.inches { 2.54 } else { 1.0 };
+            let scale = self.core.modes.unit_of_klartext_feed();
             step.feed = Feed { mode: FeedMode::PerMinute, value: value * scale };
         }
         self.emit_move(step, at)

@@ -99,8 +99,7 @@ impl Run<'_> {
             self.core.not_applied(&subject, at, "state the radius: TOOL DEF 1 L+80 R+5");
             return Ok(());
         };
-        let (mm, feed_unit) =
-            (self.core.modes.unit_mm(), if self.core.modes.inches { 2.54 } else { 1.0 });
+        let (mm, feed_unit) = (self.core.modes.unit_mm(), self.core.modes.unit_of_klartext_feed());
         let cycle = Milled { number, values, mm, feed_unit, tool_mm, at };
         let heights = cycle.heights(if number == 208 { 334 } else { 202 });
         if heights.bottom_mm >= heights.top_mm {

@@ -63,18 +63,24 @@ impl Run<'_> {
     fn corner_follows(&self) -> bool {
         let Some(active) = self.stack.last() else { return false };
         let source = self.core.program().source();
-        let rest = source.get(active.at..).unwrap_or_default();
-        for line in rest.split(|b| matches!(b, b'\n' | b'\r')) {
-            let number = line.iter().take_while(|b| b.is_ascii_digit() || **b == b' ').count();
-            match line[number..].first() {
-                None | Some(b';' | b'*') => {}
-                _ => {
-                    let word = line.get(number..number + 3).unwrap_or_default();
+        let is_number = |b: &u8| b.is_ascii_digit() || matches!(b, b' ' | b'\t');
+        let mut at = active.at;
+        loop {
+            let line = source.get(at..).unwrap_or_default();
+            let word = &line[line.iter().take_while(|b| is_number(b)).count()..];
+            match word.first() {
+                None => return false,
+                Some(b';' | b'*' | b'\n' | b'\r') => {}
+                Some(_) => {
+                    let word = word.get(..3).unwrap_or_default();
                     return [b"RND", b"CHF"].iter().any(|w| word.eq_ignore_ascii_case(*w));
                 }
             }
+            match word.iter().position(|b| matches!(b, b'\n' | b'\r')) {
+                Some(end) => at = source.len() - word.len() + end + 1,
+                None => return false,
+            }
         }
-        false
     }
 
     /// RND R and CHF: a rounding or a chamfer with this side between the blocks before and after it; F is

@@ -72,6 +72,9 @@ impl Variables {
 impl Run<'_> {
     /// The parameter that stands here, if one does.
     pub(super) fn variable(&mut self, c: &mut Cursor<'_>) -> Result<Option<Variable>, Fault> {
+        if !matches!(c.letters().first(), Some(b'Q' | b'q')) {
+            return Ok(None);
+        }
         let at = c.offset();
         let Some(kind) = c.accept_any(&["Q", "QL", "QR", "QS"]) else { return Ok(None) };
         let Some(number) = c.whole()? else {

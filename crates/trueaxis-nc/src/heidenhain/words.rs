@@ -283,7 +283,7 @@ impl Run<'_> {
             _ if self.modes.per_revolution => {
                 FeedWord::PerRevolution(value * self.core.modes.unit_mm())
             }
-            _ => FeedWord::PerMinute(value * if self.core.modes.inches { 2.54 } else { 1.0 }),
+            _ => FeedWord::PerMinute(value * self.core.modes.unit_of_klartext_feed()),
         })
     }
 
