@@ -216,6 +216,7 @@ const CRATES: [(&str, &[&str]); 28] = [
     ("trueaxis-nc", &["blocks", "input", "contour", "cycles", "moves"]),
     ("trueaxis-writer", &["nc"]),
     ("trueaxis-cl", &["input", "nc"]),
+    ("trueaxis-templates", &["report"]),
     ("trueaxis-part", &["input", "form", "geometry"]),
     ("trueaxis-standards", &["input", "form", "geometry", "report"]),
     ("trueaxis-thermal", &["input", "geometry", "machine", "report"]),
@@ -276,7 +277,7 @@ const CRATES: [(&str, &[&str]); 28] = [
     ),
     ("trueaxis-live", &["", "report"]),
     ("trueaxis-serve", &["", "live"]),
-    ("trueaxis-cli", &["", "live", "serve"]),
+    ("trueaxis-cli", &["", "live", "serve", "templates"]),
 ];
 
 /// A crate uses only those that are named for it, and none is missing from the list.

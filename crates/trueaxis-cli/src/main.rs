@@ -13,6 +13,7 @@ mod explain;
 mod identify;
 mod live;
 mod measure;
+mod new;
 mod output;
 mod part;
 mod plan;
@@ -38,6 +39,7 @@ use std::process::ExitCode;
 #[command(name = "trueaxis", version, max_term_width = 100, arg_required_else_help = true)]
 #[command(after_help = "\
 Examples:
+  trueaxis new my-machine
   trueaxis check machines/xkas2525/machine.toml
   trueaxis pose machines/xkas2525/machine.toml --at \"X=3000 Y=1200 Z=-700 C=-90 A=15\"
   trueaxis solve machines/i5-engraver/machine.toml --tip \"10 20 30\" --axis \"0.3 -0.2 0.93\"
@@ -71,6 +73,8 @@ const LICENSES: &str = include_str!("../licenses.txt");
 
 #[derive(Subcommand)]
 enum Verb {
+    /// Describe: a new folder with a machine, a part, a program, a study and a campaign to begin with
+    New(new::Arguments),
     /// Describe: check a machine file and show what it describes and what is missing
     Check(check::Arguments),
     /// Describe: nominal and actual pose of the tool, and the contribution of every error
@@ -130,6 +134,7 @@ fn main() -> ExitCode {
         Command::command().error(ErrorKind::MissingSubcommand, "name a command").exit();
     };
     let outcome = match verb {
+        Verb::New(arguments) => new::run(&arguments),
         Verb::Check(arguments) => check::run(&arguments),
         Verb::Part(arguments) => part::run(&arguments),
         Verb::Pose(arguments) => pose::run(arguments),

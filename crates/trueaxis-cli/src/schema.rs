@@ -25,10 +25,11 @@ pub struct Arguments {
     format: Format,
 }
 
-/// Those of the library and of live runs, by name.
+/// Those of the library, of live runs and of new folders, by name.
 fn schemas() -> Vec<(&'static str, Schema)> {
     let mut all = trueaxis::schemas();
     all.extend(trueaxis_live::schemas());
+    all.extend(trueaxis_templates::schemas());
     all.sort_by_key(|(name, _)| *name);
     all
 }

@@ -15,7 +15,7 @@ const OTHER_WORDS: &str = "opc-ua sign-and-encrypt part-lost program-line datum-
     laser-line least-squares length-tracker linuxcnc-trims no-referrer no-store not-a-knot on-axis on-cone \
     over-fitted probe-ball referrer-policy ring-corrected ring-hits surface-hits z-datum z-datum-corrected same-origin sans-serif set-error set-up simulation-at \
     simulation-block simulation-curves simulation-path simulation-source small-angle stages-contradict table-table \
-    test-piece touch-probe-ball touch-probe-face turns-with-axis utf-8 what-if w-offset \
+    test-piece three-axis head-table touch-probe-ball touch-probe-face turns-with-axis utf-8 what-if w-offset \
     x-content-type-options x-rot x-rot-point x-www-browser x-www-form-urlencoded \
     kebab-case serve-socket-request xdg-open xyzac-trt-kins xyzbc-trt-kins y-rot y-rot-point z-offset z-rot-point numbers";
 

@@ -40,6 +40,7 @@ fn names(server: bool) -> BTreeSet<String> {
 
 /// Commands that answer in each document; `OUT` is a folder of the test, `~` a space.
 const ANSWERS: &[(&str, &str)] = &[
+    ("new", "new OUT/my-machine --kind table-table"),
     ("part", "part parts/housing.toml"),
     ("part", "part crates/trueaxis-cli/tests/import/plate.qif"),
     ("certificate", "verify --certificate examples/07_verify/certificate.toml"),

@@ -143,6 +143,29 @@ fn law_u_is_that_of_the_machine() {
     assert!((found.values[0].u_mm - 0.09e-3).abs() < 5e-6, "{}", found.values[0].u_mm);
 }
 
+/// A machine that is known to be good only within its uncertainties: a zone is 0 wide by its values, and yet a squareness of 0 ± 100 µrad
+/// leans the side by 69.5 mm · |z| · 100 µrad, whose root mean square is 6.95 µm. Of several errors at once it is that of many machines.
+#[test]
+fn law_u_of_a_zone_is_not_0_where_its_value_is() {
+    let found = predicted(&[("m.toml", &mill("EC0Y = \"0 ± 100 urad\""))]);
+    assert!(found.values[2].value_mm < 1e-5, "{:?}", found.values[2]);
+    assert!((found.values[2].u_mm / 6.95e-3 - 1.0).abs() < 0.1, "{}", found.values[2].u_mm);
+    // The outermost points of the side are 34.75 mm away from the zero: a position of 2 · 34.75 mm · |z| · 100 µrad.
+    assert!((found.values[4].u_mm / 6.95e-3 - 1.0).abs() < 0.1, "{}", found.values[4].u_mm);
+    let machine = mill("EC0Y = \"0 ± 60 urad\"\nEB0Z = \"0 ± 80 urad\"\nEA0Z = \"0 ± 50 urad\"");
+    let study = format!("{STUDY}[monte_carlo]\nsamples = 2000\nseed = 3\n");
+    let found = predicted(&[("m.toml", &machine), ("s.toml", &study)]);
+    let many = found.drawn.as_ref().expect("a run");
+    for (value, drawn) in found.values.iter().zip(&many.characteristics) {
+        let off = drawn.spread.mean_mm - value.value_mm;
+        let root_mean_square = off.hypot(drawn.spread.u_mm);
+        if root_mean_square > 2e-4 {
+            let share = value.u_mm / root_mean_square;
+            assert!((share - 1.0).abs() < 0.12, "{share} {value:?} {drawn:?}");
+        }
+    }
+}
+
 /// A side of 6.95 ± 0.695 µm: half of the machines keep 6.95 µm, 84 % one u more; the same at any number of threads.
 #[test]
 fn law_many_machines_by_hand() {

@@ -1,0 +1,92 @@
+//! A new folder of every kind: each command that its files name runs in it, and what is there is left alone.
+
+mod command;
+
+use command::{Folder, trueaxis};
+
+const KINDS: [&str; 4] = ["three-axis", "table-table", "head-head", "head-table"];
+
+/// Runs a command whose last words are files of the folder.
+fn done(arguments: &[&str], status: i32) -> String {
+    let ran = trueaxis(arguments);
+    assert_eq!(ran.status, status, "{arguments:?}\n{}{}", ran.out, ran.err);
+    ran.out
+}
+
+#[test]
+fn every_command_runs_in_a_new_folder() {
+    for kind in KINDS {
+        let temporary = Folder::new(&format!("new-{kind}"));
+        let folder = temporary.path("my machine");
+        done(&["new", &folder, "--kind", kind], 0);
+        let at = |name: &str| temporary.path(&format!("my machine/{name}"));
+        let check = done(&["check", &at("machine.toml")], 0);
+        assert!(check.starts_with("my machine"), "{check}");
+        done(&["solve", &at("machine.toml"), "--tip", "0 0 0", "--axis", "0 0 1"], 0);
+        done(&["simulate", &at("machine.toml"), &at("part.nc")], 0);
+        let predicted = done(&["predict", &at("study.toml"), "--format", "json"], 0);
+        let predicted: serde_json::Value = serde_json::from_str(&predicted).expect("a document");
+        for found in predicted["characteristics"].as_array().expect("characteristics") {
+            assert!(found["outcome"] == "pass", "{found}");
+        }
+        // Nothing is measured: what the machine may do is in u.
+        let u = |i: usize| predicted["characteristics"][i]["u_mm"].as_f64().expect("u");
+        assert!(u(0) > 1e-4 && u(4) > 2e-4, "{} {}", u(0), u(4));
+        let plan = done(&["plan", &at("campaign.toml"), "--format", "json"], 0);
+        assert!(plan.contains("trueaxis/plan"), "{plan}");
+        done(&["compensate", "program", &at("machine.toml"), &at("part.nc"), "-o", &at("c.nc")], 0);
+    }
+}
+
+/// Readings of a virtual machine with a squareness of 40 µrad lead back to it, within its U.
+#[test]
+fn a_campaign_of_a_new_folder_finds_the_errors() {
+    for kind in KINDS {
+        let temporary = Folder::new(&format!("find-{kind}"));
+        let at = |name: &str| temporary.path(&format!("m/{name}"));
+        done(&["new", &temporary.path("m"), "--kind", kind], 0);
+        let (name, file) = match kind {
+            "three-axis" => ("EC0X", "campaign.toml"),
+            _ => ("EC0Y", "planned/campaign.toml"),
+        };
+        if kind != "three-axis" {
+            let words = ["plan", &at("campaign.toml"), "--control", "fanuc", "-o", &at("planned")];
+            done(&words, 0);
+        }
+        let machine = std::fs::read_to_string(at("machine.toml")).expect("a machine");
+        let actual = machine.replace(&format!("{name} = \"0 ±"), &format!("{name} = \"40 ±"));
+        assert_ne!(machine, actual);
+        temporary.file("m/machine.toml", &actual);
+        let readings = if kind == "three-axis" { "readings" } else { "planned/readings" };
+        done(&["measure", &at(file), "-o", &at(readings)], 0);
+        temporary.file("m/machine.toml", &machine);
+        let campaign = std::fs::read_to_string(at(file)).expect("a campaign");
+        temporary.file(&format!("m/{file}"), campaign.replace("# readings =", "readings ="));
+        let ran = trueaxis(&["identify", &at(file), "--format", "json"]);
+        assert_ne!(ran.status, 2, "{}", ran.err);
+        let document = ran.json();
+        let errors = document["errors"].as_array().expect("errors");
+        let found = errors.iter().find(|e| e["name"] == name).expect(name);
+        let number = |key: &str| found[key].as_f64().unwrap_or_else(|| panic!("{key}: {found}"));
+        let (value, expanded) = (number("value_urad"), number("U_urad"));
+        assert!((value - 40.0).abs() < 1.5 * expanded && expanded < 15.0, "{kind}: {found}");
+    }
+}
+
+#[test]
+fn what_is_there_is_left_alone() {
+    let temporary = Folder::new("new-there");
+    let file = temporary.file("notes.txt", "mine");
+    let ran = trueaxis(&["new", &temporary.path("")]);
+    assert_eq!(ran.status, 2);
+    assert!(ran.err.contains("the folder is not empty, nothing was written"), "{}", ran.err);
+    assert_eq!(std::fs::read_to_string(&file).expect("the file"), "mine");
+    assert!(!std::path::Path::new(&temporary.path("machine.toml")).exists());
+    let ran = trueaxis(&["new", &temporary.path("m"), "--name", "a \"b\""]);
+    assert_eq!(ran.status, 2);
+    assert!(ran.err.contains("cannot contain"), "{}", ran.err);
+    assert!(!std::path::Path::new(&temporary.path("m")).exists());
+    let ran = trueaxis(&["new", &file]);
+    assert_eq!(ran.status, 2);
+    assert!(ran.err.contains("error[unwritable-output]"), "{}", ran.err);
+}
