@@ -159,13 +159,13 @@ impl<'p> Compare<'p> {
         self.next = self.next.max(index);
     }
 
-    fn stroke(&self, place: &BlockPlace) -> (&'p Stroke, Stand) {
+    fn stroke(&self, place: &BlockPlace) -> (Stroke, Stand) {
         let index = place.stroke as usize;
-        (&self.posted.path.strokes[index], self.posted.path.before(index))
+        (self.posted.path.strokes.get(index), self.posted.path.before(index))
     }
 
     fn at_end(&mut self, index: usize, is: Stand) {
-        let place = self.posted.places[index];
+        let place = self.posted.places.get(index);
         let (stroke, from) = self.stroke(&place);
         let wanted = stroke.at(&from, place.until);
         let (line, file_line) = (place.line, stroke.line);
@@ -183,7 +183,7 @@ impl<'p> Compare<'p> {
     /// of the stroke. The nearest place would not do: where the tip hardly moves, or crosses its own
     /// path, another tool axis belongs to it.
     fn along(&mut self, index: usize, length: f64) {
-        let place = self.posted.places[index];
+        let place = self.posted.places.get(index);
         let (stroke, start) = self.stroke(&place);
         let (line, file_line) = (place.line, stroke.line);
         let Some(from) = place.from else { return self.way.clear() };
@@ -206,8 +206,7 @@ impl Observer for Compare<'_> {
                 continue;
             }
             let places = &self.posted.places;
-            let index = places.partition_point(|p| p.line < line);
-            let on_path = places.get(index).is_some_and(|p| p.line == line);
+            let (index, on_path) = places.find(line, self.next);
             self.skip_to(index);
             self.length += node.length;
             if on_path && node.last {
