@@ -30,6 +30,7 @@
     clippy::uninlined_format_args
 )]
 
+mod numbers;
 mod path;
 mod plain;
 mod reader;

@@ -1,5 +1,6 @@
 //! From statements to records: units, modal words and diagnostics.
 
+use super::numbers::{Fault, is_direction, is_near, norm, number, tool_number};
 use super::plain::{self, PlainPoint};
 use super::scan::{Scanner, Statement};
 use super::words::{Major, major};
@@ -10,9 +11,6 @@ use trueaxis_input::{Diagnostics, Place, in_order, usual_threads};
 use trueaxis_nc::moves::{Coolant, Feed, FeedMode, SpindleDirection};
 
 const INCH_MM: f64 = 25.4;
-
-/// Largest accepted coordinate.
-const MAX_COORDINATE_MM: f64 = 1e7;
 
 /// Largest number of listed problems.
 const MAX_PROBLEMS: usize = 100;
@@ -85,9 +83,6 @@ struct Reader<'n> {
     /// Points whose vector is not of length 1: their number, the first line, the worst length.
     off: (usize, u32, f64),
 }
-
-/// The reason why a statement cannot be used: code, message, hint.
-type Fault = (&'static str, String, &'static str);
 
 impl<'n> Reader<'n> {
     fn new(name: &'n str, reading: Reading) -> Self {
@@ -569,41 +564,7 @@ impl<'n> Reader<'n> {
     }
 }
 
-/// Whether a place is one that a file means.
-fn is_near(place_mm: &[f64; 3]) -> bool {
-    place_mm.iter().all(|v| v.abs() < MAX_COORDINATE_MM)
-}
-
-fn norm(vector: &[f64; 3]) -> f64 {
-    vector.iter().map(|v| v * v).sum::<f64>().sqrt()
-}
-
-fn is_direction(norm: f64) -> bool {
-    norm > 1e-3 && norm < 1e9
-}
-
 /// Whether a line contains the headings of a table.
 fn is_heading(s: &Statement) -> bool {
     s.word == "X" || s.word.starts_with("TIP_X")
-}
-
-fn tool_number(text: &str) -> Result<u32, Fault> {
-    match number(text)? {
-        n if (0.0..1e8).contains(&n) => Ok(n as u32),
-        n => Err(("bad-tool", format!("{n} is not a tool number"), "write LOADTL/1")),
-    }
-}
-
-fn number(text: &str) -> Result<f64, Fault> {
-    match text.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        _ => {
-            let shown: String = text.chars().take(40).collect();
-            let message = match text.is_empty() {
-                true => "a number is missing".to_owned(),
-                false => format!("`{shown}` is not a number"),
-            };
-            Err(("bad-number", message, "write a number such as 12.5 or -3"))
-        }
-    }
 }

@@ -118,3 +118,95 @@ impl Cutter<'_> {
         Piece { from: from.u, to, feed }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::axes::{legs, stretches};
+    use crate::{PostOptions, axes};
+    use std::fmt::Write;
+    use trueaxis_cl::{ClPath, Reading};
+    use trueaxis_input::Diagnostics;
+    use trueaxis_machine::Machine;
+    use trueaxis_machine::file::NoTables;
+    use trueaxis_machine::tcp::TipControl;
+    use trueaxis_nc::Control;
+
+    /// A path that turns slowly and fast, comes near the pole, and has an arc in it.
+    fn path_text() -> String {
+        let mut text = "FEDRAT/100\n".to_owned();
+        for i in 0..400 {
+            let u = f64::from(i) / 400.0;
+            let (sin, cos) = (9.0 * u * u).sin_cos();
+            let tilt = 0.9 * (3.0 * u).sin() + if i % 40 == 0 { 0.05 } else { 0.002 };
+            if i == 100 {
+                text.push_str("CIRCLE/0,0,0,0,0,1,30\n");
+            }
+            let (x, y, z) = (30.0 * cos, 30.0 * sin, 5.0 * u);
+            let (i, j, k) = (tilt.sin() * cos, tilt.sin() * sin, tilt.cos());
+            let _ = writeln!(text, "GOTO/{x},{y},{z},{i},{j},{k}");
+        }
+        text
+    }
+
+    /// The pieces are the same in blocks of any size, and those that are told at a glance are those that the
+    /// places on the way give.
+    #[test]
+    fn law_pieces_are_the_same_in_any_blocks() {
+        for (chain, decimals) in
+            [("w C' A' b X Y Z t", 5), ("w b X Y Z C A t", 3), ("w b X Y Z U C A t", 5)]
+        {
+            let text = format!(
+                "[machine]\nname = \"m\"\nchain = \"{chain}\"\n[tool]\nlength = \"50 mm\"\n"
+            );
+            let machine = Machine::check("m.toml", &text, &NoTables).0.expect("a machine");
+            let control = TipControl::of(&machine).expect("three linear axes");
+            let mut options = PostOptions::of(Control::Sinumerik840d);
+            options.decimals.angle = decimals;
+            let text = path_text();
+            let (file, _) = ClPath::read("a.cls", text.as_bytes(), &Reading::default());
+            let mut path = Path::of(file, &options, &mut Diagnostics::new());
+            axes::pass_poles(&mut path, &control, options.pole_rad);
+            let cutter = Cutter::new(&machine, &control, &options);
+            for stretch in stretches(&path) {
+                let check = &mut |leg: &Leg<'_>| blocks_agree(&cutter, &path, leg);
+                legs(&machine, &path, stretch, &mut Command::default(), check).expect("a way");
+            }
+        }
+    }
+
+    fn blocks_agree(cutter: &Cutter<'_>, path: &Path, leg: &Leg<'_>) {
+        let mut wanted = Vec::new();
+        let mut glances = 0;
+        for index in leg.first + 1..leg.end() {
+            let stroke = path.strokes.get(index);
+            let from = cutter.end_of(path, leg, index - 1);
+            let begin = wanted.len();
+            cutter
+                .pieces(&stroke, &from, leg.command(path, index), &mut |piece| {
+                    wanted.push((index, *piece));
+                    Ok(())
+                })
+                .expect("pieces");
+            if let Some(to) = cutter.whole(&stroke, &from, &leg.turned(index)) {
+                glances += 1;
+                let piece = cutter.piece(&stroke, &Node { u: 0.0, ..from }, to);
+                assert_eq!(wanted[begin..], [(index, piece)]);
+            }
+        }
+        assert!(glances > 0 || !cutter.has_three_linear || leg.end() - leg.first < 100);
+        for size in [1, 7, 100, 1000] {
+            let (mut found, mut cuts) = (Vec::new(), Cuts::default());
+            for first in (leg.first + 1..leg.end()).step_by(size) {
+                cuts.find(cutter, path, leg, first..leg.end().min(first + size));
+                for index in cuts.strokes().clone() {
+                    let of = cuts.of(index);
+                    assert_eq!(of.is_none(), path.strokes.get(index).way != Way::Line);
+                    found.extend(of.iter().flat_map(|c| c.pieces).map(|piece| (index, *piece)));
+                }
+            }
+            let lines = |at: &&(usize, Piece)| path.strokes.get(at.0).way == Way::Line;
+            assert!(found.iter().eq(wanted.iter().filter(lines)));
+        }
+    }
+}

@@ -41,8 +41,8 @@ pub(crate) struct Cutter<'c> {
     rotary: Vec<usize>,
     /// Of the angles that are written.
     half_increment_rad: f64,
-    /// The linear axes are those that place the tip.
-    has_three_linear: bool,
+    /// The linear axes are those that place the tip, and no others.
+    pub has_three_linear: bool,
     /// 10 to the decimals of written vectors; `None` where angles are written.
     vector_scale: Option<f64>,
 }

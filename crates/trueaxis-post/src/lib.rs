@@ -23,7 +23,7 @@ mod strokes;
 mod verify;
 mod write;
 
-pub use verify::{Largest, Verification, verify};
+pub use verify::{Largest, Verification, verify, verify_in_place};
 
 pub(crate) use places::{BlockPlace, HolePlace, Places};
 
@@ -125,6 +125,11 @@ pub struct Posted {
 }
 
 impl Posted {
+    /// How many lines the program has.
+    pub fn lines(&self) -> usize {
+        self.text.iter().filter(|b| **b == b'\n').count()
+    }
+
     /// How many holes are drilled by cycles of the control.
     pub fn holes(&self) -> usize {
         self.drilled.len()

@@ -75,6 +75,28 @@ impl Largest {
 /// of a block the same part of the block and of the stroke are compared.
 pub fn verify(machine: &Machine, posted: &Posted, options: &PostOptions) -> Verification {
     let program = Program::new(&options.name, posted.text.clone(), options.control);
+    compare(machine, posted, &program, options)
+}
+
+/// The same without a second copy of the text.
+pub fn verify_in_place(
+    machine: &Machine,
+    posted: &mut Posted,
+    options: &PostOptions,
+) -> Verification {
+    let text = std::mem::take(&mut posted.text);
+    let program = Program::new(&options.name, text, options.control);
+    let verification = compare(machine, posted, &program, options);
+    posted.text = program.into_source();
+    verification
+}
+
+fn compare(
+    machine: &Machine,
+    posted: &Posted,
+    program: &Program,
+    options: &PostOptions,
+) -> Verification {
     let densify = Densify::Tolerance {
         chord_mm: 0.2 * options.tolerance_mm.clamp(1e-3, 0.1),
         angle_rad: 0.5_f64.to_radians(),
@@ -84,7 +106,7 @@ pub fn verify(machine: &Machine, posted: &Posted, options: &PostOptions) -> Veri
     let mut compare = Compare::with(posted);
     let mut watch = AxisWatch::on(machine);
     let setup = set_up(machine, posted, options);
-    let run = simulate(machine, &program, &setup, &simulation, &mut [&mut compare, &mut watch]);
+    let run = simulate(machine, program, &setup, &simulation, &mut [&mut compare, &mut watch]);
     compare.end_hole();
     compare.skip_to(posted.places.len());
     Verification { issues: IssueList::of([watch.log]), problems: run.problems, ..compare.found }

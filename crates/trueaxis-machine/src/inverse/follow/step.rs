@@ -125,13 +125,13 @@ impl<'s> Steps<'s> {
     /// either end than they are from each other. Checked halfway, and at every 90° of turning.
     pub fn is_continuous(&self, before: &Command, step: &Step) -> bool {
         let total = total(step);
-        if self.is_continuous_at_a_glance(total) {
-            return true;
-        }
-        let parts = (total / FRAC_PI_2).ceil().max(2.0);
-        if self.swings_away(before, step, (0.5 * parts).floor() / parts) {
-            return false;
-        }
+        let part = (0.5 * parts(total)).floor() / parts(total);
+        self.is_continuous_at_a_glance(total)
+            || !self.swings_away(before, step, part)
+                && self.stays_between(before, step, parts(total))
+    }
+
+    fn stays_between(&self, before: &Command, step: &Step, parts: f64) -> bool {
         (1..).map(f64::from).take_while(|part| *part < parts).all(|part| {
             let mut between = *before;
             for (q, turn) in between.iter_mut().zip(&step.turns) {
@@ -143,6 +143,60 @@ impl<'s> Steps<'s> {
     }
 }
 
+fn parts(total: f64) -> f64 {
+    (total / FRAC_PI_2).ceil().max(2.0)
+}
+
 fn total(step: &Step) -> f64 {
     step.turns.iter().map(|turn| turn.abs()).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Machine;
+    use crate::file::NoTables;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// What is told at a glance is what the places on the way say; short steps near the pole, whole turns,
+        /// and changes of the branch.
+        #[test]
+        fn law_a_glance_agrees_with_the_places_on_the_way(
+            which in 0..3_usize, c in -3.0..3.0_f64, tilt in -1.5..1.5_f64, size in -6.0..0.6_f64,
+            ways in proptest::array::uniform2(-1.0..1.0_f64), turns in -1..2_i32, flips in any::<bool>(),
+        ) {
+            let chain = ["w b X Y Z C A t", "w C' A' b X Y Z t", "w C' b X Y Z B t"][which];
+            let text = format!("[machine]\nname = \"m\"\nchain = \"{chain}\"\n");
+            let machine = Machine::check("m.toml", &text, &NoTables).0.expect("a machine");
+            let way = FollowSolver::of(&machine, &Command::default()).expect("a solver");
+            let [first, second] = way.rotary[..] else { panic!("two axes") };
+            let at = |q: [f64; 2]| {
+                let mut command = Command::default();
+                (command[first], command[second]) = (q[0], q[1]);
+                command
+            };
+            let (room, pi) = (10_f64.powf(size), std::f64::consts::PI);
+            let to = [c + room * ways[0] + 2.0 * pi * f64::from(turns), tilt + room * ways[1]];
+            let to = if flips { [to[0] + pi, -to[1]] } else { to };
+            let (before, after) = (at([c, tilt]), at(to));
+            let stage = |command: &Command| {
+                Stage { axis: way.solver.serial.tool_axis(command), ..Stage::default() }
+            };
+            let steps = Steps::between(&way, &stage(&before), &stage(&after));
+            let mut step = steps.to(&before, &after);
+            // Endless axes would take the shorter way round.
+            (step.turns[first], step.turns[second]) = (to[0] - c, to[1] - tilt);
+            let total = total(&step);
+            let stays = steps.stays_between(&before, &step, parts(total));
+            if steps.is_continuous_at_a_glance(total) && 0.5 * total > steps.allowed {
+                prop_assert!(stays);
+            }
+            if steps.swings_away(&before, &step, (0.5 * parts(total)).floor() / parts(total)) {
+                prop_assert!(!stays);
+            }
+        }
+    }
 }
