@@ -18,7 +18,7 @@ pub fn usual_threads() -> usize {
 }
 
 struct State<T> {
-    /// The next block that nobody prepares.
+    /// The next block that no thread prepares yet.
     next: usize,
     /// The block that is taken next.
     taken: usize,

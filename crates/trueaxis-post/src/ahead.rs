@@ -149,7 +149,7 @@ mod tests {
         text
     }
 
-    /// The pieces are the same in blocks of any size, and those that are told at a glance are those that the
+    /// The pieces are the same in blocks of any size, and those that are seen at a glance are those that the
     /// places on the way give.
     #[test]
     fn law_pieces_are_the_same_in_any_blocks() {

@@ -198,7 +198,7 @@ fn closest_to(from: &Vec3, to: &Vec3, pole: &Vec3) -> f64 {
     if a.abs() >= b.abs() { 0.0 } else { 1.0 }
 }
 
-/// So many strokes are looked at together.
+/// So many strokes are examined together.
 pub(crate) const BLOCK: usize = 1024;
 
 /// The stretches of a path between changes of the tool.

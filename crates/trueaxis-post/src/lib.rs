@@ -109,6 +109,8 @@ impl PostOptions {
 pub struct Posted {
     /// The text.
     pub text: Vec<u8>,
+    /// How many lines it has.
+    pub lines: usize,
     /// Strokes of the tool in the file.
     pub strokes: usize,
     /// Blocks that move the tool along them.
@@ -125,11 +127,6 @@ pub struct Posted {
 }
 
 impl Posted {
-    /// How many lines the program has.
-    pub fn lines(&self) -> usize {
-        self.text.iter().filter(|b| **b == b'\n').count()
-    }
-
     /// How many holes are drilled by cycles of the control.
     pub fn holes(&self) -> usize {
         self.drilled.len()
@@ -188,6 +185,7 @@ pub fn post_path(
         Ok((Written { text, places, drilled, blocks, arcs }, rewinds)) => {
             let strokes = path.strokes.len();
             let posted = Posted {
+                lines: text.iter().filter(|b| **b == b'\n').count(),
                 text,
                 strokes,
                 blocks,

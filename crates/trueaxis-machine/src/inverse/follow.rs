@@ -32,7 +32,7 @@ use std::f64::consts::{PI, TAU};
 use step::Steps;
 use trueaxis_geometry::Vec3;
 
-/// So many targets are looked at before the best ways to them are.
+/// The branches of so many targets are found at a time.
 const BLOCK: usize = 1024;
 
 /// Why a path cannot be followed, and at which of its points.

@@ -68,7 +68,6 @@ pub struct PostAnswer {
     file: (String, usize),
     options: PostOptions,
     posted: Posted,
-    lines: usize,
     verification: Option<Verification>,
     output: PathBuf,
     set_up: Vec<NewFile>,
@@ -241,7 +240,6 @@ impl Question for Post {
         let posted = problems.keep(post_path(&machine, path, &options));
         let mut posted = posted.filter(|_| !problems.has_errors())?;
         let verification = self.verify.then(|| verify_in_place(&machine, &mut posted, &options));
-        let lines = posted.lines();
         let output = self.output.clone();
         let (set_up, set_up_is_sound) = self.set_up_files(&machine, &options, &set_up, problems)?;
         Some(PostAnswer {
@@ -249,7 +247,6 @@ impl Question for Post {
             file,
             options,
             posted,
-            lines,
             verification,
             output,
             set_up,
@@ -267,7 +264,6 @@ impl PostAnswer {
             options: &self.options,
             posted: &self.posted,
             verification: self.verification.as_ref(),
-            lines: self.lines,
             output: &self.output,
         }
     }

@@ -20,8 +20,6 @@ pub struct PostReport<'a> {
     pub posted: &'a Posted,
     /// The program read back and simulated, if that was asked for.
     pub verification: Option<&'a Verification>,
-    /// How many lines it has.
-    pub lines: usize,
     /// Its file.
     pub output: &'a Path,
 }
@@ -35,10 +33,11 @@ impl PostReport<'_> {
 
 /// A program as text and page.
 pub fn post_report(report: &PostReport<'_>) -> Report<'static> {
-    let PostReport { points, posted, verification, lines, output, .. } = report;
+    let PostReport { points, posted, verification, output, .. } = report;
     let mut answer = Report::new(format!(
-        "{points} points -> {} blocks in {lines} lines, {} {}",
+        "{points} points -> {} blocks in {} lines, {} {}",
         posted.blocks,
+        posted.lines,
         if report.is_sound() { "written to" } else { "not written to" },
         output.display()
     ));

@@ -75,8 +75,7 @@ pub struct LargestEntry {
 
 impl<'a> From<&PostReport<'a>> for PostDocument<'a> {
     fn from(report: &PostReport<'a>) -> Self {
-        let PostReport { machine, file, points, options, posted, verification, lines, output } =
-            report;
+        let PostReport { machine, file, points, options, posted, verification, output } = report;
         Self {
             schema: "trueaxis/post/1",
             machine: machine.name(),
@@ -86,7 +85,7 @@ impl<'a> From<&PostReport<'a>> for PostDocument<'a> {
             points: *points,
             strokes: posted.strokes,
             blocks: posted.blocks,
-            lines: *lines,
+            lines: posted.lines,
             arcs: posted.arcs,
             holes: posted.holes(),
             rewinds: posted.rewinds,

@@ -161,7 +161,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
-        /// What is told at a glance is what the places on the way say; short steps near the pole, whole turns,
+        /// What is seen at a glance is what the places on the way say; short steps near the pole, whole turns,
         /// and changes of the branch.
         #[test]
         fn law_a_glance_agrees_with_the_places_on_the_way(
