@@ -250,9 +250,8 @@ impl<'p> Post<'p> {
             self.block(&Block::TipOn(words), line)?;
         }
         self.go(&above, None, None, line)?;
-        let next = (leg.first + 1 < self.path.strokes.len())
-            .then(|| self.path.strokes.get(leg.first + 1))
-            .unwrap_or(stroke);
+        let after = (leg.first + 1).min(self.path.strokes.len() - 1);
+        let next = self.path.strokes.get(after);
         let (rapid, feed) = match leg.cuts_first {
             true => (stroke.rapid, stroke.feed),
             false => (next.rapid, next.feed),

@@ -310,6 +310,7 @@ impl<'m> FollowSolver<'m> {
     }
 
     /// Every turn of every command that lies within the travel, best to begin with first.
+    #[expect(clippy::cast_possible_truncation, reason = "no travel has 2^31 turns")]
     fn push_states(&self, commands: &[Command], held: Option<usize>, states: &mut Vec<State>) {
         let begin = states.len();
         for (branch, command) in (0..).zip(commands) {

@@ -1,5 +1,7 @@
 //! Point after point along a path.
 
+#![expect(clippy::cast_possible_truncation, reason = "a point has far fewer than 2^32 states")]
+
 use super::followed::turned;
 use super::undecided::{Kept, Undecided};
 use super::{FollowError, FollowFault, FollowSolver, FollowedPath, Label, Reached, Stage};

@@ -3,6 +3,8 @@
 //! Two branches of a machine mostly stay possible to the end of a path: of a point only the angles of its
 //! branches are kept, and how its states come from them, which is mostly as at the point before.
 
+#![expect(clippy::cast_possible_truncation, reason = "no memory holds 2^32 points or branches")]
+
 /// How a state comes from a branch, and from which state of the point before the best way leads to it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Kept {
