@@ -268,6 +268,11 @@ impl Program {
         &self.source
     }
 
+    /// Its text, back again.
+    pub fn into_source(self) -> Vec<u8> {
+        Arc::try_unwrap(self.source).unwrap_or_else(|shared| shared.to_vec())
+    }
+
     /// The rules of its control.
     pub fn dialect(&self) -> &'static Dialect {
         self.dialect

@@ -30,10 +30,15 @@
     clippy::uninlined_format_args
 )]
 
+mod numbers;
+mod path;
+mod plain;
 mod reader;
 mod rewrite;
 mod scan;
 mod words;
+
+pub use path::ClPath;
 
 use std::ops::Range;
 use trueaxis_input::Diagnostics;
@@ -177,7 +182,10 @@ pub struct Extent {
 impl ClFile {
     /// Reads a file and reports all problems. With errors the records must not be machined.
     pub fn read(name: &str, source: Vec<u8>, reading: &Reading) -> (Self, Diagnostics) {
-        let (records, problems) = reader::read(name, &source, reading);
+        let mut records = Vec::new();
+        let problems = reader::read(name, &source, reading, &mut |line, span, word| {
+            records.push(Record { line, span, word });
+        });
         (Self { name: name.to_owned(), source, records }, problems)
     }
 

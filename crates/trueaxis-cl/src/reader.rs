@@ -1,16 +1,16 @@
 //! From statements to records: units, modal words and diagnostics.
 
+use super::numbers::{Fault, is_direction, is_near, norm, number, tool_number};
+use super::plain::{self, PlainPoint};
 use super::scan::{Scanner, Statement};
 use super::words::{Major, major};
-use super::{ClCircle, ClCycle, ClPoint, Reading, Record, Word};
+use super::{ClCircle, ClCycle, ClPoint, Reading, Word};
 use std::collections::HashSet;
-use trueaxis_input::{Diagnostics, Place};
+use std::ops::Range;
+use trueaxis_input::{Diagnostics, Place, in_order, usual_threads};
 use trueaxis_nc::moves::{Coolant, Feed, FeedMode, SpindleDirection};
 
 const INCH_MM: f64 = 25.4;
-
-/// Largest accepted coordinate.
-const MAX_COORDINATE_MM: f64 = 1e7;
 
 /// Largest number of listed problems.
 const MAX_PROBLEMS: usize = 100;
@@ -21,14 +21,40 @@ const MOST_PECKS: f64 = 1e5;
 /// Deviation of the length of a tool axis from 1 above which a warning is given.
 const NORM_TOLERANCE: f64 = 1e-4;
 
-pub(super) fn read(name: &str, source: &[u8], reading: &Reading) -> (Vec<Record>, Diagnostics) {
+/// Receives the statements in order: line, bytes, content.
+pub(super) type Take<'t> = dyn FnMut(u32, Range<usize>, Word) + 't;
+
+/// Reads statement by statement. Points in their plain form are found ahead, on all processors.
+pub(super) fn read(
+    name: &str,
+    source: &[u8],
+    reading: &Reading,
+    take: &mut Take<'_>,
+) -> Diagnostics {
     let mut reader = Reader::new(name, *reading);
     let mut scanner = Scanner::new(source);
     let mut statement = Statement::default();
+    let find = |block: usize, found: &mut Vec<PlainPoint>| plain::find(source, block, found);
+    in_order(plain::blocks(source), usual_threads(), &find, &mut |found| {
+        for plain in found.iter() {
+            let [begin, end, next] = plain.span;
+            // A line that another statement goes on in is no statement.
+            while scanner.at() < begin && scanner.next(&mut statement) {
+                let (line, span) = (statement.line, statement.span.clone());
+                take(line, span, reader.word(&statement));
+            }
+            if scanner.at() == begin
+                && let Some(point) = reader.plain_point(scanner.line(), plain)
+            {
+                take(scanner.line(), begin..end, Word::Goto(point));
+                scanner.skip_line(next);
+            }
+        }
+        true
+    });
     while scanner.next(&mut statement) {
-        let word = reader.word(&statement);
         let (line, span) = (statement.line, statement.span.clone());
-        reader.records.push(Record { line, span, word });
+        take(line, span, reader.word(&statement));
     }
     reader.finish()
 }
@@ -36,7 +62,6 @@ pub(super) fn read(name: &str, source: &[u8], reading: &Reading) -> (Vec<Record>
 struct Reader<'n> {
     name: &'n str,
     reading: Reading,
-    records: Vec<Record>,
     problems: Diagnostics,
     reported: HashSet<String>,
     count: usize,
@@ -59,16 +84,12 @@ struct Reader<'n> {
     off: (usize, u32, f64),
 }
 
-/// The reason why a statement cannot be used: code, message, hint.
-type Fault = (&'static str, String, &'static str);
-
 impl<'n> Reader<'n> {
     fn new(name: &'n str, reading: Reading) -> Self {
         let unit_mm = if reading.inches == Some(true) { INCH_MM } else { 1.0 };
         Self {
             name,
             reading,
-            records: Vec::new(),
             problems: Diagnostics::new(),
             reported: HashSet::new(),
             count: 0,
@@ -114,7 +135,7 @@ impl<'n> Reader<'n> {
         }
     }
 
-    fn finish(mut self) -> (Vec<Record>, Diagnostics) {
+    fn finish(mut self) -> Diagnostics {
         let all = self.points[0] + self.points[1];
         if all == 0 {
             let message = "the file has no point (GOTO)".to_owned();
@@ -144,7 +165,7 @@ impl<'n> Reader<'n> {
             let hint = "write UNITS/MM or UNITS/INCHES, or state the unit on the command line";
             self.problems.note("no-units", Place::whole(self.name), message, hint);
         }
-        (self.records, self.problems)
+        self.problems
     }
 
     fn word(&mut self, s: &Statement) -> Word {
@@ -291,7 +312,7 @@ impl<'n> Reader<'n> {
 
     fn place_mm(&self, s: &Statement) -> Result<[f64; 3], Fault> {
         let place = self.numbers::<3>(s, 0)?.map(|v| v * self.unit_mm);
-        match place.iter().all(|v| v.abs() < MAX_COORDINATE_MM) {
+        match is_near(&place) {
             true => Ok(place),
             false => {
                 let message = "a coordinate of the point exceeds 10 km".to_owned();
@@ -316,6 +337,21 @@ impl<'n> Reader<'n> {
         Ok(ClPoint { tip_mm, axis, rapid, feed: self.feed })
     }
 
+    /// A point in its plain form; none where it has to be read as any other statement.
+    fn plain_point(&mut self, line: u32, plain: &PlainPoint) -> Option<ClPoint> {
+        let [x, y, z, i, j, k] = plain.numbers;
+        let (tip_mm, vector) = ([x, y, z].map(|v| v * self.unit_mm), [i, j, k]);
+        let norm = norm(&vector);
+        if !is_near(&tip_mm) || !is_direction(norm) {
+            return None;
+        }
+        self.note_norm(norm, line);
+        self.points[0] += 1;
+        self.tip_mm = Some(tip_mm);
+        let rapid = std::mem::take(&mut self.rapid);
+        Some(ClPoint { tip_mm, axis: vector.map(|v| v / norm), rapid, feed: self.feed })
+    }
+
     fn axis_of_point(&mut self, own: Option<[f64; 3]>, s: &Statement) -> Result<[f64; 3], Fault> {
         self.points[usize::from(own.is_none())] += 1;
         if own.is_none() && self.points[1] == 1 {
@@ -334,18 +370,22 @@ impl<'n> Reader<'n> {
     /// A direction, brought to length 1.
     fn vector(&mut self, s: &Statement, from: usize) -> Result<[f64; 3], Fault> {
         let vector = self.numbers::<3>(s, from)?;
-        let norm = vector.iter().map(|v| v * v).sum::<f64>().sqrt();
-        if !(norm > 1e-3 && norm < 1e9) {
+        let norm = norm(&vector);
+        if !is_direction(norm) {
             let message = format!("the tool axis has the length {norm}");
             return Err(("zero-tool-axis", message, "write a vector of length 1"));
         }
+        self.note_norm(norm, s.line);
+        Ok(vector.map(|v| v / norm))
+    }
+
+    fn note_norm(&mut self, norm: f64, at: u32) {
         if (norm - 1.0).abs() > NORM_TOLERANCE {
             let (count, line, worst) = self.off;
             let worse = (norm - 1.0).abs() > (worst - 1.0).abs();
-            let first = if count == 0 { s.line } else { line };
+            let first = if count == 0 { at } else { line };
             self.off = (count + 1, first, if worse { norm } else { worst });
         }
-        Ok(vector.map(|v| v / norm))
     }
 
     fn delta(&mut self, s: &Statement) -> Result<ClPoint, Fault> {
@@ -377,8 +417,8 @@ impl<'n> Reader<'n> {
                 return Err(("bad-circle", message, "write CIRCLE/x,y,z,i,j,k,radius"));
             }
         };
-        let norm = normal.iter().map(|v| v * v).sum::<f64>().sqrt();
-        if !(norm > 1e-3 && norm < 1e9) {
+        let norm = norm(&normal);
+        if !is_direction(norm) {
             let message = "the normal of the circle has length zero".to_owned();
             return Err(("bad-circle", message, "write CIRCLE/x,y,z,i,j,k,radius"));
         }
@@ -527,25 +567,4 @@ impl<'n> Reader<'n> {
 /// Whether a line contains the headings of a table.
 fn is_heading(s: &Statement) -> bool {
     s.word == "X" || s.word.starts_with("TIP_X")
-}
-
-fn tool_number(text: &str) -> Result<u32, Fault> {
-    match number(text)? {
-        n if (0.0..1e8).contains(&n) => Ok(n as u32),
-        n => Err(("bad-tool", format!("{n} is not a tool number"), "write LOADTL/1")),
-    }
-}
-
-fn number(text: &str) -> Result<f64, Fault> {
-    match text.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        _ => {
-            let shown: String = text.chars().take(40).collect();
-            let message = match text.is_empty() {
-                true => "a number is missing".to_owned(),
-                false => format!("`{shown}` is not a number"),
-            };
-            Err(("bad-number", message, "write a number such as 12.5 or -3"))
-        }
-    }
 }

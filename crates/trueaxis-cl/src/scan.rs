@@ -60,6 +60,22 @@ impl<'s> Scanner<'s> {
         Self { source, at: if bom { 3 } else { 0 }, line: 1 }
     }
 
+    /// Where the next statement begins, or blank lines before it.
+    pub fn at(&self) -> usize {
+        self.at
+    }
+
+    /// The number of the line there.
+    pub fn line(&self) -> u32 {
+        self.line
+    }
+
+    /// Leaves out the line that ends where another one begins.
+    pub fn skip_line(&mut self, next: usize) {
+        self.at = next;
+        self.line += 1;
+    }
+
     /// The next line without its end; `None` at the end of the file.
     fn next_line(&mut self) -> Option<Range<usize>> {
         if self.at >= self.source.len() {

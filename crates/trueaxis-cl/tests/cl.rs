@@ -5,7 +5,7 @@
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use trueaxis_cl::{ClCircle, ClFile, Reading, Word};
+use trueaxis_cl::{ClCircle, ClFile, ClPath, Reading, Word};
 use trueaxis_nc::moves::SpindleDirection;
 
 /// A folder or file of the outside data, or `None` with a message.
@@ -219,3 +219,58 @@ const PIECES: [&str; 24] = [
     "SYN/'TLAXIS','$$*'\n",
     "nan",
 ];
+
+/// Lines of a file, some of which go on in the next one.
+const LINES: [&str; 12] = [
+    "GOTO/1.5,-2,3.25,0,0,1",
+    "GOTO/1.5,-2,4.25,0,0.6,0.8",
+    "GOTO / 1, 2, 3, 0, 0, 1",
+    "GOTO/1,2,3,0,0,1 $$ note",
+    "GOTO/1,2,3, $\n0,0,1",
+    "CYCLE/DRILL,FEDTO,3,MMPM,50,RAPTO,1 $\nGOTO/9,9,9,0,0,1",
+    "PPRINT $\nGOTO/9,9,8,0,0,1",
+    "RAPID",
+    "FEDRAT/250",
+    "\n  \nGOTO/0,0,0,0,0,2",
+    "GOTO/1e3,2,3,0,0,1",
+    "GOTO/1,2,3,0,0,0",
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Points in their plain form are what the same lines with a blank before them are, which are read as any
+    /// other statement; over several blocks of a long file. And the path has the words of the file.
+    #[test]
+    fn law_plain_points_are_read_as_other_statements(
+        lines in proptest::collection::vec(0..LINES.len(), 50..400), crlf in any::<bool>(),
+    ) {
+        let mut text = String::new();
+        let times = 700_000 / (20 * lines.len());
+        for line in lines.iter().cycle().take(times * lines.len()) {
+            text.push_str(LINES[*line]);
+            text.push('\n');
+        }
+        let text = if crlf { text.replace('\n', "\r\n") } else { text };
+        let spaced = text.replace("GOTO", " GOTO");
+        let reading = Reading::default();
+        let (file, problems) = ClFile::read("a.cls", text.clone().into_bytes(), &reading);
+        let (wanted, wanted_problems) = ClFile::read("a.cls", spaced.into_bytes(), &reading);
+        let same = file.records().iter().zip(wanted.records()).all(|(a, b)| {
+            (a.line, &a.word) == (b.line, &b.word)
+        });
+        prop_assert!(same && file.records().len() == wanted.records().len());
+        prop_assert!(problems.iter().eq(wanted_problems.iter()));
+        assert_lossless(&file);
+
+        let (path, path_problems) = ClPath::read("a.cls", text.as_bytes(), &reading);
+        prop_assert!(path_problems.iter().eq(problems.iter()));
+        prop_assert_eq!(path.points(), file.points().count());
+        prop_assert!(path == ClPath::from(&file));
+        let has_effect = |word: &Word| {
+            matches!(word, Word::Goto(_) | Word::Cycle(_) | Word::Insert(_) | Word::Stop { .. })
+        };
+        let words = file.records().iter().filter(|r| has_effect(&r.word));
+        prop_assert!(path.into_words().eq(words.map(|r| (r.line, r.word.clone()))));
+    }
+}

@@ -5,7 +5,8 @@
 //! - [`Diagnostic`]: code, place, message and hint of one problem; [`Diagnostics`]: all of them;
 //! - [`Files`], [`Source`]: access to files; [`limits`]: how much of a text is read;
 //! - [`stl`]: facets of STL files;
-//! - [`plausible`]: ranges that quantities of machine tools have.
+//! - [`plausible`]: ranges that quantities of machine tools have;
+//! - [`in_order()`]: blocks of a long text on several threads.
 //!
 //! ```
 //! use trueaxis_input::{Dimension, SourceText};
@@ -40,6 +41,7 @@ mod csv;
 mod diagnostic;
 mod files;
 pub mod foreign;
+mod in_order;
 pub mod limits;
 pub mod plausible;
 mod quantity;
@@ -51,5 +53,6 @@ mod vector;
 pub use csv::{CsvColumn, CsvTable};
 pub use diagnostic::{Diagnostic, Diagnostics, Place, Severity};
 pub use files::{Files, Source};
+pub use in_order::{in_order, usual_threads};
 pub use quantity::{Dimension, MeasuredValue, QuantityError, Unit, parse_measured, parse_quantity};
 pub use section::{Item, Section, SourceText};

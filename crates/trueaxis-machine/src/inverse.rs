@@ -15,7 +15,7 @@ mod placer;
 mod serial;
 pub(crate) mod turns;
 
-pub use follow::{FollowError, FollowFault};
+pub use follow::{FollowError, FollowFault, FollowSolver, FollowedPath, Follower, Reached};
 
 use crate::Machine;
 use crate::axis::{AxisKind, Command};
@@ -240,6 +240,14 @@ impl Machine {
         from: &Command,
     ) -> Result<(Vec<Command>, Option<FollowError>), FollowError> {
         follow::follow(self, path, from)
+    }
+
+    /// What follows a path that begins at a command piece by piece; see [`Follower`].
+    ///
+    /// # Errors
+    /// A number of the command is not finite.
+    pub fn follow_solver(&self, from: &Command) -> Result<FollowSolver<'_>, FollowError> {
+        FollowSolver::of(self, from)
     }
 }
 

@@ -54,5 +54,8 @@ pub mod volume;
 
 pub use chain::{ErrorFrame, ErrorModel, Machine, Squareness};
 pub use deviation::Deviation;
-pub use inverse::{FollowError, FollowFault, Singularity, Solution, Solutions, SolveError, Target};
+pub use inverse::{
+    FollowError, FollowFault, FollowSolver, FollowedPath, Follower, Reached, Singularity, Solution,
+    Solutions, SolveError, Target,
+};
 pub use tool::ToolAssembly;

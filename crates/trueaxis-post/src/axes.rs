@@ -1,13 +1,17 @@
 //! From strokes to axis positions: poles, branches, turns, and where the tool must go back.
 
-use crate::path::{Path, Stroke, Way, between};
-use crate::{Fault, PostOptions};
+use crate::Fault;
+use crate::path::{Event, Path, Stand, Stroke, Way, between};
+use crate::strokes::Strokes;
+use std::ops::Range;
 use trueaxis_geometry::frame::{Direction, Point};
 use trueaxis_geometry::{Vec3, angle};
+use trueaxis_input::{in_order, usual_threads};
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::tcp::TipControl;
-use trueaxis_machine::{FollowFault, Machine, Target};
-use trueaxis_writer::TipWords;
+use trueaxis_machine::{
+    FollowError, FollowFault, FollowSolver, FollowedPath, Follower, Machine, Reached, Target,
+};
 
 /// Nearer to a pole than this the tool axis is taken for the pole: an angle that no part shows.
 const POLE_RAD: f64 = 2e-7;
@@ -16,14 +20,38 @@ const POLE_RAD: f64 = 2e-7;
 const MOST_CUTS: u32 = 60;
 
 /// Strokes in a row that one continuous motion makes, and the axis positions at their ends.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Leg {
+pub(crate) struct Leg<'m> {
     /// The stroke at whose end the leg begins.
     pub first: usize,
     /// Whether that stroke is still to be cut by this leg.
     pub cuts_first: bool,
+    solver: FollowSolver<'m>,
     /// At the end of each stroke from there on.
-    pub commands: Vec<Command>,
+    followed: FollowedPath,
+}
+
+impl Leg<'_> {
+    /// The stroke after the last one.
+    pub fn end(&self) -> usize {
+        self.first + self.followed.len()
+    }
+
+    /// The axis positions at the end of a stroke of the leg.
+    pub fn command(&self, path: &Path, index: usize) -> Command {
+        self.solver.command(&self.followed, index - self.first, &target(path.strokes.to(index)))
+    }
+
+    /// The same with the rotary axes alone: the linear ones are not placed.
+    pub fn turned(&self, index: usize) -> Command {
+        self.solver.turned(&self.followed, index - self.first)
+    }
+}
+
+fn target(stand: Stand) -> Target {
+    Target {
+        tip: Point::from_vector(stand.tip),
+        axis: Direction::of(stand.axis).unwrap_or(Direction::Z),
+    }
 }
 
 /// Turns tool axes near a pole onto it and cuts strokes that pass it, so that the swing of the first
@@ -43,26 +71,52 @@ pub(crate) fn pass_poles(path: &mut Path, control: &TipControl, pole_rad: f64) -
         }
         axis
     };
-    for stroke in &mut path.strokes {
-        stroke.to.axis = onto_pole(stroke.to.axis);
+    let far = (near < 0.5).then(|| (near * (1.0 + 1e-9) + 1e-12).powi(2));
+    for stand in path.strokes.ends_mut() {
+        // The sine is smaller than the angle: most axes are farther away at a glance.
+        if far.is_none_or(|far| stand.axis.cross(&pole).norm_squared() <= far) {
+            stand.axis = onto_pole(stand.axis);
+        }
     }
-    let (mut strokes, mut moved) = (Vec::with_capacity(path.strokes.len()), Vec::new());
+    if let Some(first) = first_cut(path, &pole, near) {
+        cut_at_pole(path, &pole, near, first, &mut onto_pole);
+    }
+    // What is below the digits of programs is not reported as a deviation.
+    if most > POLE_RAD { most } else { 0.0 }
+}
+
+/// The first stroke that has to be cut.
+fn first_cut(path: &Path, pole: &Vec3, near: f64) -> Option<usize> {
+    let ends = path.strokes.ends();
+    (1..ends.len())
+        .find(|&i| !cuts_at_pole(&ends[i - 1].axis, &ends[i].axis, pole, near).is_empty())
+}
+
+/// Cuts strokes from one on; the numbers of strokes that events and holes name follow.
+fn cut_at_pole(
+    path: &mut Path,
+    pole: &Vec3,
+    near: f64,
+    first: usize,
+    onto_pole: &mut dyn FnMut(Vec3) -> Vec3,
+) {
+    let (mut strokes, mut moved) = (Strokes::default(), Vec::new());
     for (i, stroke) in path.strokes.iter().enumerate() {
         moved.push(strokes.len());
-        if i > 0 {
-            let from = path.strokes[i - 1].to;
-            let cuts = cuts_at_pole(&from.axis, &stroke.to.axis, &pole, near);
-            let mut before = 0.0;
-            for u in cuts {
-                let mut to = stroke.at(&from, u);
-                to.axis = onto_pole(to.axis);
-                strokes.push(Stroke { to, way: part(&stroke.way, u - before), ..*stroke });
-                before = u;
-            }
-            strokes.push(Stroke { way: part(&stroke.way, 1.0 - before), ..*stroke });
-        } else {
-            strokes.push(*stroke);
+        if i < first {
+            strokes.push(&stroke);
+            continue;
         }
+        let from = path.strokes.to(i - 1);
+        let cuts = cuts_at_pole(&from.axis, &stroke.to.axis, pole, near);
+        let mut before = 0.0;
+        for u in cuts {
+            let mut to = stroke.at(&from, u);
+            to.axis = onto_pole(to.axis);
+            strokes.push(&Stroke { to, way: part(&stroke.way, u - before), ..stroke });
+            before = u;
+        }
+        strokes.push(&Stroke { way: part(&stroke.way, 1.0 - before), ..stroke });
     }
     moved.push(strokes.len());
     for (at, _) in &mut path.events {
@@ -73,8 +127,6 @@ pub(crate) fn pass_poles(path: &mut Path, control: &TipControl, pole_rad: f64) -
         hole.last = moved[hole.last + 1] - 1;
     }
     path.strokes = strokes;
-    // What is below the digits of programs is not reported as a deviation.
-    if most > POLE_RAD { most } else { 0.0 }
 }
 
 fn part(way: &Way, fraction: f64) -> Way {
@@ -90,6 +142,13 @@ fn part(way: &Way, fraction: f64) -> Way {
 /// from the pole; at the pole itself where it passes it.
 fn cuts_at_pole(from: &Vec3, to: &Vec3, pole: &Vec3, near: f64) -> Vec<f64> {
     let mut cuts = Vec::new();
+    // 2 asin(c/2) ≤ 1.05 c for a chord c ≤ 1, and a sine is smaller than its angle: most turns are far
+    // smaller than their distance at a glance.
+    let chord = (to - from).norm();
+    let sines = from.cross(pole).norm_squared().min(to.cross(pole).norm_squared());
+    if chord <= 1.0 && (3.15 * chord + 1e-9).powi(2) <= sines {
+        return cuts;
+    }
     let turn = angle(from, to);
     let away = |axis: &Vec3| angle(axis, pole).min(angle(axis, &-pole));
     if turn <= 0.5 * (away(from).min(away(to)) - turn).max(0.0) {
@@ -139,40 +198,83 @@ fn closest_to(from: &Vec3, to: &Vec3, pole: &Vec3) -> f64 {
     if a.abs() >= b.abs() { 0.0 } else { 1.0 }
 }
 
-/// Axis positions for all strokes, in as few legs as continuous motions allow.
-pub(crate) fn legs(machine: &Machine, path: &Path) -> Result<Vec<Leg>, Fault> {
-    let target = |stroke: &Stroke| Target {
-        tip: Point::from_vector(stroke.to.tip),
-        axis: Direction::of(stroke.to.axis).unwrap_or(Direction::Z),
-    };
-    let targets: Vec<Target> = path.strokes.iter().map(target).collect();
-    let mut legs: Vec<Leg> = Vec::new();
-    let mut from = Command::default();
+/// So many strokes are examined together.
+pub(crate) const BLOCK: usize = 1024;
+
+/// The stretches of a path between changes of the tool.
+pub(crate) fn stretches(path: &Path) -> Vec<Range<usize>> {
+    let strokes = path.strokes.len();
     let mut begins: Vec<usize> = vec![0];
-    let changes = path.events.iter().filter(|(_, e)| matches!(e, crate::path::Event::Tool { .. }));
-    begins.extend(changes.map(|(at, _)| *at).filter(|at| *at > 0 && *at < targets.len()));
+    let changes = path.events.iter().filter(|(_, e)| matches!(e, Event::Tool { .. }));
+    begins.extend(changes.map(|(at, _)| *at).filter(|at| *at > 0 && *at < strokes));
     begins.dedup();
-    begins.push(targets.len());
-    for ends in begins.windows(2) {
-        let (mut first, end, mut cuts_first) = (ends[0], ends[1], true);
-        while first < end {
-            let (commands, jump) = machine
-                .follow_on(&targets[first..end], &from)
-                .map_err(|e| explained(path.strokes[first + e.index].line, &e.fault))?;
-            let reached = first + commands.len();
-            if let Some(jump) = jump.filter(|_| commands.len() < 2 && !cuts_first) {
-                return Err(explained(path.strokes[reached].line, &jump.fault));
-            }
-            from = *commands.last().unwrap_or(&from);
-            legs.push(Leg { first, cuts_first, commands });
-            if reached == end {
-                break;
-            }
-            // The next leg begins where this one ends, turned otherwise.
-            (first, cuts_first) = (reached - 1, false);
+    begins.push(strokes);
+    begins.windows(2).map(|ends| ends[0]..ends[1]).collect()
+}
+
+/// Axis positions for all strokes of a stretch, in as few legs as continuous motions allow, each handed out
+/// before the next one is looked for; they begin at `from`, which is where they end then.
+pub(crate) fn legs(
+    machine: &Machine,
+    path: &Path,
+    stretch: Range<usize>,
+    from: &mut Command,
+    out: &mut dyn FnMut(&Leg<'_>),
+) -> Result<(), Fault> {
+    let (mut first, mut cuts_first) = (stretch.start, true);
+    while first < stretch.end {
+        let explained = |e: &FollowError| explained(path.strokes.line(first + e.index), &e.fault);
+        let solver = machine.follow_solver(from).map_err(|e| explained(&e))?;
+        let (followed, jump) =
+            follow(&solver, path, first..stretch.end).map_err(|e| explained(&e))?;
+        let leg = Leg { first, cuts_first, solver, followed };
+        if let Some(jump) = jump.filter(|_| leg.followed.len() < 2 && !cuts_first) {
+            return Err(explained(&jump));
         }
+        let reached = leg.end();
+        if !leg.followed.is_empty() {
+            *from = leg.command(path, reached - 1);
+        }
+        out(&leg);
+        if reached == stretch.end {
+            break;
+        }
+        // The next leg begins where this one ends, turned otherwise.
+        (first, cuts_first) = (reached - 1, false);
     }
-    Ok(legs)
+    Ok(())
+}
+
+/// As [`Machine::follow_on`], with the branches of each block of strokes found on any thread.
+fn follow(
+    solver: &FollowSolver<'_>,
+    path: &Path,
+    strokes: Range<usize>,
+) -> Result<(FollowedPath, Option<FollowError>), FollowError> {
+    let (mut follower, mut followed) = (Follower::on(solver), FollowedPath::default());
+    let ends = &path.strokes.ends()[strokes];
+    let mut jump = Ok(None);
+    let reach = |block: usize, reached: &mut Reached| {
+        let piece = ends.chunks(BLOCK).nth(block).unwrap_or_default();
+        solver.reach(piece.iter().map(|stand| target(*stand)), reached);
+    };
+    let blocks = ends.len().div_ceil(BLOCK);
+    in_order(blocks, usual_threads(), &reach, &mut |reached| {
+        jump = follower.take(reached, &mut followed);
+        matches!(jump, Ok(None))
+    });
+    let jump = jump?;
+    let at_end = follower.finish(&mut followed)?;
+    Ok((followed, at_end.or(jump)))
+}
+
+/// Whether a rotary axis is turned at the end of a stroke of a leg.
+pub(crate) fn is_turned(machine: &Machine, path: &Path, leg: &Leg<'_>) -> bool {
+    let turned = |command: &Command| {
+        let mut axes = machine.axes().iter().zip(command);
+        axes.any(|(axis, q)| axis.kind == AxisKind::Rotary && q.abs() > POLE_RAD)
+    };
+    (leg.first..leg.end()).any(|index| turned(&leg.command(path, index)))
 }
 
 /// With tool length compensation alone the places of the program are those of the tip only where no rotary axis is
@@ -181,28 +283,20 @@ pub(crate) fn check_upright(
     machine: &Machine,
     control: &TipControl,
     path: &Path,
-    legs: &[Leg],
-    options: &PostOptions,
+    is_turned: bool,
 ) -> Result<(), Fault> {
-    if options.tip_words != Some(TipWords::Length) {
-        return Ok(());
-    }
     let refused = |line, message: &str| Fault {
         line,
         code: "turned-tool",
         message: message.to_owned(),
         hint: "write --tcp on, or --tcp off for positions of the axes",
     };
-    let turned = |command: &Command| {
-        let mut axes = machine.axes().iter().zip(command);
-        axes.any(|(axis, q)| axis.kind == AxisKind::Rotary && q.abs() > POLE_RAD)
-    };
-    if legs.iter().any(|leg| leg.commands.iter().any(turned)) {
+    if is_turned {
         let (_, upright) = control.tip_and_axis(&Command::default());
-        let tilted = |stroke: &&Stroke| angle(&stroke.to.axis, &upright) > POLE_RAD;
-        let line = path.strokes.iter().find(tilted).map_or(0, |stroke| stroke.line);
+        let tilted = |stand: &Stand| angle(&stand.axis, &upright) > POLE_RAD;
+        let line = path.strokes.ends().iter().position(tilted);
         let message = "a rotary axis is turned here: tool length compensation does not follow it";
-        return Err(refused(line, message));
+        return Err(refused(line.map_or(0, |index| path.strokes.line(index)), message));
     }
     let tip = machine.tip_mm();
     let straight = tip.x.hypot(tip.y) < 1e-9 && tip.z <= 0.0;

@@ -50,7 +50,7 @@ impl Post<'_> {
     }
 
     /// Whether arcs mean to the control what they mean here.
-    fn has_arcs(&self, leg: &Leg, at: &Command) -> bool {
+    fn has_arcs(&self, leg: &Leg<'_>, at: &Command) -> bool {
         let options = self.options;
         let plain = self.coordinates == Coordinates::Program;
         !options.lines_only
@@ -73,7 +73,7 @@ impl Post<'_> {
         &mut self,
         stroke: &Stroke,
         [from, to]: [&Node; 2],
-        leg: &Leg,
+        leg: &Leg<'_>,
         index: usize,
     ) -> Result<bool, Fault> {
         if stroke.way == Way::Line || stroke.rapid || !self.has_arcs(leg, &from.command) {
@@ -94,7 +94,7 @@ impl Post<'_> {
             return Ok(false);
         }
         let (line, stroke) = (self.line, index as u32);
-        self.places.push(BlockPlace { line, stroke, from: Some(0.0), until: 1.0 });
+        self.places.push(&BlockPlace { line, stroke, from: Some(0.0), until: 1.0 });
         self.blocks += 1;
         self.arcs += 1;
         Ok(true)

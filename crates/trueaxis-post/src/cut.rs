@@ -1,6 +1,7 @@
 //! Cuts strokes so that what the control does between two blocks stays near the stroke.
 
-use crate::path::{Stand, Stroke, Turn, Way, between};
+use crate::axes::Leg;
+use crate::path::{Path, Stand, Stroke, Turn, Way, between};
 use crate::{Fault, PostOptions};
 use trueaxis_geometry::frame::Direction;
 use trueaxis_geometry::{Vec3, angle};
@@ -31,12 +32,17 @@ enum Between {
 /// Cuts strokes for one machine.
 #[derive(Debug)]
 pub(crate) struct Cutter<'c> {
-    machine: &'c Machine,
-    control: &'c TipControl,
+    pub machine: &'c Machine,
+    pub control: &'c TipControl,
+    pub options: &'c PostOptions,
     between: Between,
     tolerance_mm: f64,
     axis_tolerance_rad: f64,
     rotary: Vec<usize>,
+    /// Of the angles that are written.
+    half_increment_rad: f64,
+    /// The linear axes are those that place the tip, and no others.
+    pub has_three_linear: bool,
     /// 10 to the decimals of written vectors; `None` where angles are written.
     vector_scale: Option<f64>,
 }
@@ -51,7 +57,7 @@ pub(crate) struct Node {
 }
 
 impl<'c> Cutter<'c> {
-    pub fn new(machine: &'c Machine, control: &'c TipControl, options: &PostOptions) -> Self {
+    pub fn new(machine: &'c Machine, control: &'c TipControl, options: &'c PostOptions) -> Self {
         let between = match (options.tip_words, options.control) {
             (None, _) => Between::Axes,
             (Some(TipWords::Vectors), Control::Sinumerik840d | Control::Heidenhain) => {
@@ -61,16 +67,58 @@ impl<'c> Cutter<'c> {
             (Some(_), _) => Between::TipAndAngles,
         };
         let kind = |i: &usize| machine.axes()[*i].kind == AxisKind::Rotary;
+        let rotary: Vec<usize> = (0..machine.axes().len()).filter(kind).collect();
         Self {
             machine,
             control,
+            options,
             between,
             tolerance_mm: SHARE * options.tolerance_mm,
             axis_tolerance_rad: SHARE * options.axis_tolerance_rad,
-            rotary: (0..machine.axes().len()).filter(kind).collect(),
+            half_increment_rad: 0.5 * 10_f64.powi(-i32::from(options.decimals.angle)).to_radians(),
+            has_three_linear: machine.axes().len() == 3 + rotary.len(),
+            rotary,
             vector_scale: (options.tip_words == Some(TipWords::Vectors))
                 .then(|| 10_f64.powi(i32::from(options.decimals.vector))),
         }
+    }
+
+    /// Whether tool axes are written as vectors.
+    pub fn has_vectors(&self) -> bool {
+        self.vector_scale.is_some()
+    }
+
+    /// The end of a stroke of a leg.
+    pub fn end_of(&self, path: &Path, leg: &Leg<'_>, index: usize) -> Node {
+        let stand = path.strokes.to(index);
+        Node { u: 1.0, stand, command: self.exact(&stand, &leg.command(path, index)) }
+    }
+
+    /// The rotary axes as they are printed, and the linear axes that go with exactly them.
+    pub fn exact(&self, stand: &Stand, command: &Command) -> Command {
+        if self.has_vectors() {
+            return *command;
+        }
+        self.printed(stand, command).unwrap_or(*command)
+    }
+
+    fn printed(&self, stand: &Stand, command: &Command) -> Option<Command> {
+        let scale = 10_f64.powi(i32::from(self.options.decimals.angle));
+        let mut printed = *command;
+        for &axis in &self.rotary {
+            let q = &mut printed[axis];
+            *q = ((q.to_degrees() * scale).round_ties_even() / scale).to_radians();
+        }
+        self.control.place(stand.tip, &mut printed).then_some(printed)
+    }
+
+    /// The end of a line that can be left to the control at a glance, where it can; its rotary axes are enough.
+    pub fn whole(&self, stroke: &Stroke, from: &Node, turned: &Command) -> Option<Node> {
+        if !self.has_three_linear || !self.is_near_at_a_glance(stroke, from, turned) {
+            return None;
+        }
+        let command = self.printed(&stroke.to, turned)?;
+        Some(Node { u: 1.0, stand: stroke.to, command })
     }
 
     /// Hands out the ends of the pieces of a stroke from `from` to `to`, which is its end.
@@ -122,6 +170,22 @@ impl<'c> Cutter<'c> {
             true => Node { command, ..next },
             false => next,
         }
+    }
+
+    /// Whether a whole line can be left to the control at a glance: sufficient for [`Self::is_near`].
+    ///
+    /// The control turns all rotary axes evenly, by T in all, the tool axis of the file by θ: halfway both are
+    /// no farther than T²/8 and θ²/8 from the middles of their chords, and the ends of these chords are as far
+    /// apart as the least increment is wide. The tip is on the line.
+    pub fn is_near_at_a_glance(&self, stroke: &Stroke, from: &Node, to: &Command) -> bool {
+        let turned = |&i: &usize| (to[i] - from.command[i]).abs();
+        let total: f64 = self.rotary.iter().map(turned).sum();
+        let turn = (stroke.to.axis - from.stand.axis).norm_squared();
+        let ends = 1e-9 + self.rotary.len() as f64 * self.half_increment_rad;
+        self.between == Between::TipAndAngles
+            && stroke.way == Way::Line
+            && turn <= 1.0
+            && (total * total + 1.2 * turn) / 8.0 + ends <= 0.8 * self.axis_tolerance_rad.min(1.0)
     }
 
     fn turns(&self, a: &Node, b: &Node) -> bool {

@@ -31,7 +31,7 @@ impl Compare<'_> {
         self.next_hole += 1;
         let hole = &self.posted.path.holes[place.hole];
         let ways = std::mem::take(&mut self.drilled);
-        let (line, file_line) = (place.lines[1], self.posted.path.strokes[hole.last].line);
+        let (line, file_line) = (place.lines[1], self.posted.path.strokes.line(hole.last));
         let off = off_the_hole(hole, &ways);
         let turned = ways.iter().map(|(is, _)| angle(&is.axis, &hole.surface.axis));
         let turned = turned.fold(0.0, f64::max);

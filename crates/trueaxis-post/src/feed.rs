@@ -25,6 +25,11 @@ pub(crate) fn feed_of(
     to: &Node,
     tip_feed_mm_per_min: f64,
 ) -> Feed {
+    // The control itself keeps the feed of the tip: that of the file is written.
+    if let (FeedRule::Tip, Some(_)) = (options.feed, options.tip_words) {
+        let (mode, value) = (FeedMode::PerMinute, tip_feed_mm_per_min.min(GREATEST));
+        return Feed { mode, value };
+    }
     let (mut linear, mut rotary, mut slowest) = (0.0_f64, 0.0_f64, 0.0_f64);
     for (i, axis) in machine.axes().iter().enumerate() {
         let way = (to.command[i] - from.command[i]).abs();

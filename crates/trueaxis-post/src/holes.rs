@@ -30,7 +30,7 @@ impl Post<'_> {
     /// Drills the hole that begins with a stroke by a cycle; its last stroke, if there is one.
     pub(crate) fn drill(
         &mut self,
-        leg: &Leg,
+        leg: &Leg<'_>,
         index: usize,
         at: &Node,
     ) -> Result<Option<usize>, Fault> {
@@ -39,14 +39,14 @@ impl Post<'_> {
         let Some(drilled) = path.holes.get(number).filter(|hole| hole.begin <= index) else {
             return Ok(None);
         };
-        let inside = drilled.last < leg.first + leg.commands.len();
+        let inside = drilled.last < leg.end();
         if !inside || !self.has_cycles() {
             return Ok(None);
         }
         let Some(hole) = self.cycle(drilled, leg, at) else { return Ok(None) };
-        let line = path.strokes[index].line;
+        let line = path.strokes.line(index);
         for k in index..=drilled.last {
-            self.cutter.inside(&leg.commands[k - leg.first], line)?;
+            self.cutter.inside(&leg.command(path, k), line)?;
         }
         let first_line = self.line + 1;
         if index == drilled.begin && self.goes_on(drilled, &hole, at) {
@@ -54,7 +54,7 @@ impl Post<'_> {
         } else if index == drilled.down {
             self.end_holes()?;
             self.events(index)?;
-            let above = Node { stand: path.strokes[drilled.last].to, ..*at };
+            let above = Node { stand: path.strokes.to(drilled.last), ..*at };
             if (above.stand.tip - at.stand.tip).norm() > SAME_MM {
                 let above = self.end_of(leg, drilled.last);
                 self.go(&above, None, None, line)?;
@@ -83,7 +83,7 @@ impl Post<'_> {
         let events = path.events.partition_point(|(stroke, _)| *stroke < drilled.begin);
         let undisturbed = path.events.get(events).is_none_or(|(stroke, _)| *stroke > drilled.down);
         let Some(before) = &self.hole else { return false };
-        let retracted = path.strokes[drilled.last].to;
+        let retracted = path.strokes.to(drilled.last);
         let level = (at.stand.tip - retracted.tip).dot(&retracted.axis).abs() < SAME_MM;
         let crosses = drilled.down == drilled.begin + 1 && before.place_mm != hole.place_mm;
         undisturbed && level && crosses && before.is_like(hole)
@@ -91,7 +91,7 @@ impl Post<'_> {
 
     /// The cycle for a hole, with the digits of the program; none where the tool does not stand along Z of the
     /// program, or where no cycle of the control does the same.
-    fn cycle(&self, drilled: &Drilled, leg: &Leg, at: &Node) -> Option<Hole> {
+    fn cycle(&self, drilled: &Drilled, leg: &Leg<'_>, at: &Node) -> Option<Hole> {
         let Drilled { surface: Stand { tip, axis }, cycle, .. } = drilled;
         let ends = [drilled.down.max(leg.first), drilled.last];
         let still = |k: usize| self.stands(&at.command, &self.end_of(leg, k).command);

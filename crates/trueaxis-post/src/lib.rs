@@ -10,6 +10,7 @@
 //!     text ──simulate──> the largest difference from the strokes      verify
 //! ```
 
+mod ahead;
 mod axes;
 mod circles;
 mod cut;
@@ -17,17 +18,25 @@ mod drilled;
 mod feed;
 mod holes;
 mod path;
+mod places;
+mod strokes;
 mod verify;
 mod write;
 
-pub use verify::{Largest, Verification, verify};
+pub use verify::{Largest, Verification, verify, verify_in_place};
 
-use trueaxis_cl::ClFile;
+pub(crate) use places::{BlockPlace, HolePlace, Places};
+
+use cut::Cutter;
+use path::Path;
+use trueaxis_cl::{ClFile, ClPath};
 use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
+use trueaxis_machine::axis::Command;
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::Control;
 use trueaxis_writer::{Decimals, Templates, TipWords};
+use write::{Post, Written};
 
 /// How feeds are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -95,34 +104,13 @@ impl PostOptions {
     }
 }
 
-/// What a block of the program has to do with the file.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct BlockPlace {
-    /// The line of the program, from 1.
-    line: u32,
-    /// The stroke.
-    stroke: u32,
-    /// Which part of the stroke it begins at; `None` where it is not the way of the stroke: the
-    /// tool comes down to its end after a tool change, or at the beginning.
-    from: Option<f64>,
-    /// Which part of the stroke it ends: 1 is its end.
-    until: f64,
-}
-
-/// A hole that the control drills by its own cycle.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct HolePlace {
-    /// The lines of the program from and to, from 1.
-    lines: [u32; 2],
-    /// Which of the holes.
-    hole: usize,
-}
-
 /// A program and where it comes from.
 #[derive(Debug, Clone)]
 pub struct Posted {
     /// The text.
     pub text: Vec<u8>,
+    /// How many lines it has.
+    pub lines: usize,
     /// Strokes of the tool in the file.
     pub strokes: usize,
     /// Blocks that move the tool along them.
@@ -133,9 +121,9 @@ pub struct Posted {
     pub pole_deviation_rad: f64,
     /// Blocks that are arcs.
     pub arcs: usize,
-    places: Vec<BlockPlace>,
+    places: Places,
     drilled: Vec<HolePlace>,
-    path: path::Path,
+    path: Path,
 }
 
 impl Posted {
@@ -171,6 +159,15 @@ pub fn post(
     file: &ClFile,
     options: &PostOptions,
 ) -> (Option<Posted>, Diagnostics) {
+    post_path(machine, ClPath::from(file), options)
+}
+
+/// The same for a path without its text: its memory is given back as it is read.
+pub fn post_path(
+    machine: &Machine,
+    file: ClPath,
+    options: &PostOptions,
+) -> (Option<Posted>, Diagnostics) {
     let mut problems = Diagnostics::new();
     let Some(control) = TipControl::of(machine) else {
         let message = "the machine has fewer than three linear axes".to_owned();
@@ -178,26 +175,63 @@ pub fn post(
         problems.error("no-linear-axes", Place::whole(machine.name()), message, hint);
         return (None, problems);
     };
-    let path = path::Path::of(file, options, &mut problems);
+    let name = file.name().to_owned();
+    let mut path = Path::of(file, options, &mut problems);
     if problems.has_errors() {
         return (None, problems);
     }
-    let mut path = path;
     let pole_deviation_rad = axes::pass_poles(&mut path, &control, options.pole_rad);
-    let posted = axes::legs(machine, &path)
-        .and_then(|legs| {
-            axes::check_upright(machine, &control, &path, &legs, options).map(|()| legs)
-        })
-        .and_then(|legs| write::write(machine, &control, path, &legs, options));
-    match posted {
-        Ok(posted) => (Some(Posted { pole_deviation_rad, ..posted }), problems),
+    match write(machine, &control, &path, options) {
+        Ok((Written { text, places, drilled, blocks, arcs }, rewinds)) => {
+            let strokes = path.strokes.len();
+            let posted = Posted {
+                lines: text.iter().filter(|b| **b == b'\n').count(),
+                text,
+                strokes,
+                blocks,
+                rewinds,
+                pole_deviation_rad,
+                arcs,
+                places,
+                drilled,
+                path,
+            };
+            (Some(posted), problems)
+        }
         Err(fault) => {
-            let place =
-                Place { file: file.name().to_owned(), line: fault.line as usize, column: 1 };
+            let place = Place { file: name, line: fault.line as usize, column: 1 };
             problems.error(fault.code, place, fault.message, fault.hint);
             (None, problems)
         }
     }
+}
+
+/// Leg after leg. Where a place cannot be reached, that is reported before what cannot be written.
+fn write(
+    machine: &Machine,
+    control: &TipControl,
+    path: &Path,
+    options: &PostOptions,
+) -> Result<(Written, usize), Fault> {
+    let cutter = Cutter::new(machine, control, options);
+    let mut post = Post::begin(machine, path, &cutter, options);
+    let (mut rewinds, mut is_turned, mut from) = (0, false, Command::default());
+    let upright = options.tip_words == Some(TipWords::Length);
+    for stretch in axes::stretches(path) {
+        axes::legs(machine, path, stretch, &mut from, &mut |leg| {
+            rewinds += usize::from(!leg.cuts_first);
+            is_turned |= upright && axes::is_turned(machine, path, leg);
+            if let Ok(writing) = &mut post
+                && let Err(fault) = writing.leg(leg)
+            {
+                post = Err(fault);
+            }
+        })?;
+    }
+    if upright {
+        axes::check_upright(machine, control, path, is_turned)?;
+    }
+    Ok((post?.end()?, rewinds))
 }
 
 /// Why there is no program, and the line of the file.

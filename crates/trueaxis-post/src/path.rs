@@ -1,7 +1,8 @@
 //! The strokes of the tool: what the records of the file add up to.
 
 use crate::PostOptions;
-use trueaxis_cl::{ClCircle, ClCycle, ClFile, ClPoint, Word};
+use crate::strokes::Strokes;
+use trueaxis_cl::{ClCircle, ClCycle, ClPath, ClPoint, Word};
 use trueaxis_geometry::frame::rotation;
 use trueaxis_geometry::{Vec3, angle};
 use trueaxis_input::{Diagnostics, Place};
@@ -68,7 +69,7 @@ pub(crate) struct Drilled {
 /// Strokes, and events each before the stroke of a number.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Path {
-    pub strokes: Vec<Stroke>,
+    pub strokes: Strokes,
     pub events: Vec<(usize, Event)>,
     /// Which strokes are drilling cycles, in order.
     pub holes: Vec<Drilled>,
@@ -156,7 +157,7 @@ impl Stroke {
 
 /// Everything modal while the records are read.
 struct Builder<'b> {
-    file: &'b ClFile,
+    file: &'b str,
     options: &'b PostOptions,
     problems: &'b mut Diagnostics,
     path: Path,
@@ -168,9 +169,10 @@ struct Builder<'b> {
 }
 
 impl Path {
-    pub fn of(file: &ClFile, options: &PostOptions, problems: &mut Diagnostics) -> Self {
+    pub fn of(file: ClPath, options: &PostOptions, problems: &mut Diagnostics) -> Self {
+        let name = file.name().to_owned();
         let mut builder = Builder {
-            file,
+            file: &name,
             options,
             problems,
             path: Self::default(),
@@ -180,15 +182,16 @@ impl Path {
             told_no_feed: false,
             tools: 0,
         };
-        for record in file.records() {
-            builder.take(&record.word, record.line);
+        builder.path.strokes.reserve(file.points());
+        for (line, word) in file.into_words() {
+            builder.take(&word, line);
         }
         builder.path
     }
 
     /// The place before a stroke; that of the stroke itself before the first.
     pub fn before(&self, stroke: usize) -> Stand {
-        self.strokes[stroke.saturating_sub(1)].to
+        self.strokes.to(stroke.saturating_sub(1))
     }
 }
 
@@ -233,7 +236,7 @@ impl Builder<'_> {
     }
 
     fn place(&self, line: u32) -> Place {
-        Place { file: self.file.name().to_owned(), line: line as usize, column: 1 }
+        Place { file: self.file.to_owned(), line: line as usize, column: 1 }
     }
 
     fn point(&mut self, point: &ClPoint, line: u32) {
@@ -244,7 +247,7 @@ impl Builder<'_> {
         }
         let to = Stand { tip, axis };
         let Some(feed) = self.feed(point.rapid, point.feed, line) else { return };
-        let from = self.path.strokes.last().map(|s| s.to);
+        let from = self.path.strokes.last_to();
         let way = match (circle, from) {
             (Some(circle), Some(from)) => arc(&circle, &from, &to),
             _ => Way::Line,
@@ -288,7 +291,7 @@ impl Builder<'_> {
     /// Where the tool comes to stand over a hole: at its retract height, or higher where it comes
     /// from higher up; from lower down it rises before it crosses.
     fn over_hole(&mut self, retracted: &Stand, line: u32) -> Stand {
-        let Some(from) = self.path.strokes.last().map(|s| s.to) else { return *retracted };
+        let Some(from) = self.path.strokes.last_to() else { return *retracted };
         if angle(&from.axis, &retracted.axis) > SAME_RAD {
             return *retracted;
         }
@@ -302,7 +305,7 @@ impl Builder<'_> {
     }
 
     fn push(&mut self, stroke: Stroke) {
-        self.path.strokes.push(stroke);
+        self.path.strokes.push(&stroke);
     }
 
     /// In mm/min; `None` where the file has none, which is reported once.

@@ -75,6 +75,28 @@ impl Largest {
 /// of a block the same part of the block and of the stroke are compared.
 pub fn verify(machine: &Machine, posted: &Posted, options: &PostOptions) -> Verification {
     let program = Program::new(&options.name, posted.text.clone(), options.control);
+    compare(machine, posted, &program, options)
+}
+
+/// The same without a second copy of the text.
+pub fn verify_in_place(
+    machine: &Machine,
+    posted: &mut Posted,
+    options: &PostOptions,
+) -> Verification {
+    let text = std::mem::take(&mut posted.text);
+    let program = Program::new(&options.name, text, options.control);
+    let verification = compare(machine, posted, &program, options);
+    posted.text = program.into_source();
+    verification
+}
+
+fn compare(
+    machine: &Machine,
+    posted: &Posted,
+    program: &Program,
+    options: &PostOptions,
+) -> Verification {
     let densify = Densify::Tolerance {
         chord_mm: 0.2 * options.tolerance_mm.clamp(1e-3, 0.1),
         angle_rad: 0.5_f64.to_radians(),
@@ -84,7 +106,7 @@ pub fn verify(machine: &Machine, posted: &Posted, options: &PostOptions) -> Veri
     let mut compare = Compare::with(posted);
     let mut watch = AxisWatch::on(machine);
     let setup = set_up(machine, posted, options);
-    let run = simulate(machine, &program, &setup, &simulation, &mut [&mut compare, &mut watch]);
+    let run = simulate(machine, program, &setup, &simulation, &mut [&mut compare, &mut watch]);
     compare.end_hole();
     compare.skip_to(posted.places.len());
     Verification { issues: IssueList::of([watch.log]), problems: run.problems, ..compare.found }
@@ -159,13 +181,13 @@ impl<'p> Compare<'p> {
         self.next = self.next.max(index);
     }
 
-    fn stroke(&self, place: &BlockPlace) -> (&'p Stroke, Stand) {
+    fn stroke(&self, place: &BlockPlace) -> (Stroke, Stand) {
         let index = place.stroke as usize;
-        (&self.posted.path.strokes[index], self.posted.path.before(index))
+        (self.posted.path.strokes.get(index), self.posted.path.before(index))
     }
 
     fn at_end(&mut self, index: usize, is: Stand) {
-        let place = self.posted.places[index];
+        let place = self.posted.places.get(index);
         let (stroke, from) = self.stroke(&place);
         let wanted = stroke.at(&from, place.until);
         let (line, file_line) = (place.line, stroke.line);
@@ -183,7 +205,7 @@ impl<'p> Compare<'p> {
     /// of the stroke. The nearest place would not do: where the tip hardly moves, or crosses its own
     /// path, another tool axis belongs to it.
     fn along(&mut self, index: usize, length: f64) {
-        let place = self.posted.places[index];
+        let place = self.posted.places.get(index);
         let (stroke, start) = self.stroke(&place);
         let (line, file_line) = (place.line, stroke.line);
         let Some(from) = place.from else { return self.way.clear() };
@@ -206,8 +228,7 @@ impl Observer for Compare<'_> {
                 continue;
             }
             let places = &self.posted.places;
-            let index = places.partition_point(|p| p.line < line);
-            let on_path = places.get(index).is_some_and(|p| p.line == line);
+            let (index, on_path) = places.find(line, self.next);
             self.skip_to(index);
             self.length += node.length;
             if on_path && node.last {

@@ -1,13 +1,15 @@
 //! Legs as blocks: safe start and end, events, moves.
 
-use crate::axes::Leg;
+use crate::ahead::{Cuts, Piece};
+use crate::axes::{BLOCK, Leg};
 use crate::cut::{Cutter, Node};
 use crate::feed::feed_of;
 use crate::path::{Event, Path, Stand};
-use crate::{BlockPlace, Fault, HolePlace, PostOptions, Posted};
+use crate::{BlockPlace, Fault, HolePlace, Places, PostOptions};
 use trueaxis_geometry::Vec3;
+use trueaxis_input::{in_order, usual_threads};
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{AxisKind, Command, Travel};
+use trueaxis_machine::axis::{AxisKind, Travel};
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::{Axis, Coordinates, Feed, FeedMode, SpindleDirection};
 use trueaxis_writer::{
@@ -31,7 +33,7 @@ pub(crate) struct Post<'p> {
     pub coordinates: Coordinates,
     /// Lines written so far.
     pub line: u32,
-    pub places: Vec<BlockPlace>,
+    pub places: Places,
     pub drilled: Vec<HolePlace>,
     /// The cycle that is on.
     pub hole: Option<Hole>,
@@ -39,47 +41,13 @@ pub(crate) struct Post<'p> {
     pub arcs: usize,
 }
 
-pub(crate) fn write(
-    machine: &Machine,
-    control: &TipControl,
-    path: Path,
-    legs: &[Leg],
-    options: &PostOptions,
-) -> Result<Posted, Fault> {
-    let templates = options.templates.clone().unwrap_or_else(|| Templates::of(options.control));
-    let cutter = Cutter::new(machine, control, options);
-    let mut post = Post {
-        machine,
-        control,
-        options,
-        path: &path,
-        cutter: &cutter,
-        writer: Writer::with(options.control, options.decimals, templates),
-        names: names(machine)?,
-        coordinates: axis_coordinates(options.control),
-        line: 0,
-        places: Vec::with_capacity(path.strokes.len()),
-        drilled: Vec::new(),
-        hole: None,
-        blocks: 0,
-        arcs: 0,
-    };
-    post.program(legs)?;
-    let (text, places, blocks) = (post.writer.finish(), post.places, post.blocks);
-    let (drilled, arcs) = (post.drilled, post.arcs);
-    let rewinds = legs.iter().filter(|leg| !leg.cuts_first).count();
-    let strokes = path.strokes.len();
-    Ok(Posted {
-        text,
-        strokes,
-        blocks,
-        rewinds,
-        arcs,
-        pole_deviation_rad: 0.0,
-        places,
-        drilled,
-        path,
-    })
+/// What was written.
+pub(crate) struct Written {
+    pub text: Vec<u8>,
+    pub places: Places,
+    pub drilled: Vec<HolePlace>,
+    pub blocks: usize,
+    pub arcs: usize,
 }
 
 fn names(machine: &Machine) -> Result<Vec<Axis>, Fault> {
@@ -94,7 +62,35 @@ fn names(machine: &Machine) -> Result<Vec<Axis>, Fault> {
     })
 }
 
-impl Post<'_> {
+impl<'p> Post<'p> {
+    /// A program with its first lines.
+    pub fn begin(
+        machine: &'p Machine,
+        path: &'p Path,
+        cutter: &'p Cutter<'p>,
+        options: &'p PostOptions,
+    ) -> Result<Self, Fault> {
+        let templates = options.templates.clone().unwrap_or_else(|| Templates::of(options.control));
+        let mut post = Self {
+            machine,
+            control: cutter.control,
+            options,
+            path,
+            cutter,
+            writer: Writer::with(options.control, options.decimals, templates),
+            names: names(machine)?,
+            coordinates: axis_coordinates(options.control),
+            line: 0,
+            places: Places::default(),
+            drilled: Vec::new(),
+            hole: None,
+            blocks: 0,
+            arcs: 0,
+        };
+        post.heading()?;
+        Ok(post)
+    }
+
     pub(crate) fn block(&mut self, block: &Block<'_>, line: u32) -> Result<(), Fault> {
         self.try_block(block).map_err(|e| unwritable(&e, line))
     }
@@ -107,7 +103,7 @@ impl Post<'_> {
         Ok(())
     }
 
-    fn program(&mut self, legs: &[Leg]) -> Result<(), Fault> {
+    fn heading(&mut self) -> Result<(), Fault> {
         let made = format!("trueaxis post for {}", self.machine.name());
         let tip = self.machine.tip_mm();
         let tool =
@@ -127,11 +123,15 @@ impl Post<'_> {
         if !self.path.events.iter().any(named) {
             self.tool(1, "")?;
         }
-        for leg in legs {
-            self.leg(leg)?;
-        }
+        Ok(())
+    }
+
+    /// The last lines.
+    pub fn end(mut self) -> Result<Written, Fault> {
         self.events(self.path.strokes.len())?;
-        self.block(&Block::End, 0)
+        self.block(&Block::End, 0)?;
+        let Self { writer, places, drilled, blocks, arcs, .. } = self;
+        Ok(Written { text: writer.finish(), places, drilled, blocks, arcs })
     }
 
     fn tool(&mut self, number: u32, text: &str) -> Result<(), Fault> {
@@ -160,73 +160,84 @@ impl Post<'_> {
         Ok(())
     }
 
-    fn leg(&mut self, leg: &Leg) -> Result<(), Fault> {
+    /// The strokes of a leg. The cuts of each block of them are found on any thread, and written in order.
+    pub fn leg(&mut self, leg: &Leg<'_>) -> Result<(), Fault> {
         if leg.cuts_first {
             self.events(leg.first)?;
         }
-        let path = self.path;
         let begin = self.end_of(leg, leg.first);
         self.enter(leg, &begin)?;
         let mut at = begin;
-        let mut index = leg.first;
-        while index + 1 < leg.first + leg.commands.len() {
-            index += 1;
-            if let Some(last) = self.drill(leg, index, &at)? {
-                (index, at) = (last, self.end_of(leg, last));
-                continue;
-            }
-            self.end_holes()?;
-            let (stroke, command) = (&path.strokes[index], &leg.commands[index - leg.first]);
-            self.events(index)?;
-            let from = Node { u: 0.0, ..at };
-            let end = self.end_of(leg, index);
-            if self.write_circle(stroke, [&from, &end], leg, index)? {
-                at = end;
-                continue;
-            }
-            let mut here = from;
-            let cutter = self.cutter;
-            cutter.cut(stroke, &from, *command, &mut |node| {
-                let node = Node { command: self.exact(&node.stand, &node.command), ..*node };
-                let feed = (!stroke.rapid)
-                    .then(|| feed_of(self.machine, self.options, &here, &node, stroke.feed));
-                self.go(&node, feed, Some((index, Some(here.u))), stroke.line)?;
-                here = node;
-                Ok(())
-            })?;
-            at = here;
-        }
+        let mut result = Ok(());
+        let (cutter, path) = (self.cutter, self.path);
+        let strokes = leg.first + 1..leg.end();
+        let find = |block: usize, cuts: &mut Cuts| {
+            let first = strokes.start + block * BLOCK;
+            cuts.find(cutter, path, leg, first..strokes.end.min(first + BLOCK));
+        };
+        let mut next = strokes.start;
+        in_order(strokes.len().div_ceil(BLOCK), usual_threads(), &find, &mut |cuts| {
+            result = self.strokes(leg, cuts, &mut next, &mut at);
+            result.is_ok()
+        });
+        result?;
         self.end_holes()?;
         self.leave(&at)
     }
 
-    /// The end of a stroke of a leg.
-    pub(crate) fn end_of(&self, leg: &Leg, index: usize) -> Node {
-        let stand = self.path.strokes[index].to;
-        Node { u: 1.0, stand, command: self.exact(&stand, &leg.commands[index - leg.first]) }
-    }
-
-    /// The rotary axes as they are printed, and the linear axes that go with exactly them.
-    fn exact(&self, stand: &Stand, command: &Command) -> Command {
-        if self.options.tip_words == Some(TipWords::Vectors) {
-            return *command;
-        }
-        let scale = 10_f64.powi(i32::from(self.options.decimals.angle));
-        let mut exact = *command;
-        for (axis, q) in self.machine.axes().iter().zip(&mut exact) {
-            if axis.kind == AxisKind::Rotary {
-                *q = ((q.to_degrees() * scale).round_ties_even() / scale).to_radians();
+    /// A block of strokes, from the next one that is not written.
+    fn strokes(
+        &mut self,
+        leg: &Leg<'_>,
+        cuts: &mut Cuts,
+        next: &mut usize,
+        at: &mut Node,
+    ) -> Result<(), Fault> {
+        while *next < cuts.strokes().end {
+            let index = *next;
+            *next += 1;
+            if let Some(last) = self.drill(leg, index, at)? {
+                (*next, *at) = (last + 1, self.end_of(leg, last));
+                continue;
+            }
+            self.end_holes()?;
+            self.events(index)?;
+            let Some(found) = cuts.of(index) else {
+                *at = self.stroke(leg, index, at)?;
+                continue;
+            };
+            for Piece { from, to, feed } in found.pieces {
+                self.go(to, *feed, Some((index, Some(*from))), found.line)?;
+                *at = *to;
+            }
+            if let Some(fault) = found.fault {
+                return Err(fault.clone());
             }
         }
-        match self.control.place(stand.tip, &mut exact) {
-            true => exact,
-            false => *command,
+        Ok(())
+    }
+
+    /// A stroke that was not cut ahead; where it ends.
+    fn stroke(&mut self, leg: &Leg<'_>, index: usize, at: &Node) -> Result<Node, Fault> {
+        let stroke = self.path.strokes.get(index);
+        let (from, end) = (Node { u: 0.0, ..*at }, self.end_of(leg, index));
+        if self.write_circle(&stroke, [&from, &end], leg, index)? {
+            return Ok(end);
         }
+        let (cutter, command) = (self.cutter, leg.command(self.path, index));
+        cutter.pieces(&stroke, &from, command, &mut |piece| {
+            self.go(&piece.to, piece.feed, Some((index, Some(piece.from))), stroke.line)
+        })
+    }
+
+    /// The end of a stroke of a leg.
+    pub(crate) fn end_of(&self, leg: &Leg<'_>, index: usize) -> Node {
+        self.cutter.end_of(self.path, leg, index)
     }
 
     /// To the beginning of a leg: up, over it, down along the tool axis.
-    fn enter(&mut self, leg: &Leg, begin: &Node) -> Result<(), Fault> {
-        let stroke = &self.path.strokes[leg.first];
+    fn enter(&mut self, leg: &Leg<'_>, begin: &Node) -> Result<(), Fault> {
+        let stroke = self.path.strokes.get(leg.first);
         let line = stroke.line;
         self.raise_z(line)?;
         let above = self.above(begin);
@@ -239,7 +250,8 @@ impl Post<'_> {
             self.block(&Block::TipOn(words), line)?;
         }
         self.go(&above, None, None, line)?;
-        let next = self.path.strokes.get(leg.first + 1).unwrap_or(stroke);
+        let after = (leg.first + 1).min(self.path.strokes.len() - 1);
+        let next = self.path.strokes.get(after);
         let (rapid, feed) = match leg.cuts_first {
             true => (stroke.rapid, stroke.feed),
             false => (next.rapid, next.feed),
@@ -314,7 +326,7 @@ impl Post<'_> {
         self.block(&block, line)?;
         if let (Some((stroke, from)), true) = (stroke, self.line > before) {
             let (line, stroke, until) = (self.line, stroke as u32, node.u);
-            self.places.push(BlockPlace { line, stroke, from, until });
+            self.places.push(&BlockPlace { line, stroke, from, until });
             self.blocks += 1;
         }
         if self.blocks > MOST_BLOCKS {

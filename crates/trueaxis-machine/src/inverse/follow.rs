@@ -7,15 +7,33 @@
 //! A state is one branch with one turn of each rotary axis within its travel. An endless axis (also
 //! one without a stated travel) is kept in (−π, π] and its steps are taken the shorter way round;
 //! its turns are put together at the end.
+//!
+//! ```text
+//!     targets ──FollowSolver──> branches, states     each point by itself, on any thread
+//!             ──Follower──> labels                   point after point
+//!             ──Undecided──> the best way            where all ways come together, and at the end
+//! ```
+
+mod followed;
+mod follower;
+mod step;
+mod undecided;
+
+pub use followed::FollowedPath;
+pub use follower::Follower;
 
 use super::turns::{TIE_RAD, nearest, others};
-use super::{Branches, Placer, SolveError, Solver, Target, with};
+use super::{Placer, SolveError, Solver, Target, with};
 use crate::Machine;
 use crate::axis::{AxisKind, Command, Travel};
 use crate::errors::BodyName;
-use std::f64::consts::{FRAC_PI_2, PI};
-use std::ops::Range;
+use follower::Pole;
+use std::f64::consts::{PI, TAU};
+use step::Steps;
 use trueaxis_geometry::Vec3;
+
+/// The branches of so many targets are found at a time.
+const BLOCK: usize = 1024;
 
 /// Why a path cannot be followed, and at which of its points.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -63,46 +81,32 @@ fn amount(kind: AxisKind, beyond: f64) -> String {
     }
 }
 
-/// The points of the path so far and every state that each may be reached in, one after the other
-/// in common lists.
-#[derive(Default)]
-struct Stages {
-    /// The tool axes wanted.
-    axes: Vec<Vec3>,
-    /// The axis that has no effect at a point.
-    held: Vec<Option<usize>>,
-    /// Where the states of a point end.
-    ends: Vec<usize>,
-    states: Vec<Command>,
+/// One way to stand at a point: a branch with turns of its aiming axes.
+#[derive(Debug, Clone, Copy)]
+struct State {
+    command: Command,
+    branch: u32,
+    /// Whole turns of the aiming axes from the angles of the branch.
+    turns: [i32; 2],
+    /// What counts before its angles; see [`FollowSolver::order`].
+    order: usize,
+}
+
+/// A point with every state that it may be reached in.
+#[derive(Debug, Clone, Default)]
+struct Stage {
+    /// The tool axis wanted.
+    axis: Vec3,
+    /// The axis that has no effect at the point.
+    held: Option<usize>,
+    /// Angles of the aiming axes of its branches.
+    branches: Vec<[f64; 2]>,
+    states: Vec<State>,
     labels: Vec<Label>,
 }
 
-impl Stages {
-    fn with_capacity(points: usize) -> Self {
-        Self {
-            axes: Vec::with_capacity(points),
-            held: Vec::with_capacity(points),
-            ends: Vec::with_capacity(points),
-            states: Vec::with_capacity(2 * points),
-            labels: Vec::with_capacity(2 * points),
-        }
-    }
-
-    fn len(&self) -> usize {
-        self.axes.len()
-    }
-
-    fn range(&self, point: usize) -> Range<usize> {
-        point.checked_sub(1).map_or(0, |before| self.ends[before])..self.ends[point]
-    }
-
-    fn states(&self, point: usize) -> &[Command] {
-        &self.states[self.range(point)]
-    }
-}
-
 /// The best way to a state so far.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 struct Label {
     cost: f64,
     /// Travel of the first rotary axis.
@@ -113,6 +117,12 @@ struct Label {
 }
 
 impl Label {
+    const UNREACHED: Self = Self { cost: f64::INFINITY, first: 0.0, rank: usize::MAX, before: 0 };
+
+    fn is_reached(&self) -> bool {
+        self.cost < f64::INFINITY
+    }
+
     fn beats(&self, other: &Self) -> bool {
         let differ = |a: f64, b: f64| (a - b).abs() > TIE_RAD;
         if differ(self.cost, other.cost) {
@@ -125,34 +135,134 @@ impl Label {
     }
 }
 
+/// Targets with the ways to reach each of them: what is the same wherever the tool comes from, and so
+/// may be found for many targets at once.
+#[derive(Debug, Clone, Default)]
+pub struct Reached {
+    targets: Vec<Target>,
+    held: Vec<Option<usize>>,
+    /// Where the branches of a target end.
+    branch_ends: Vec<usize>,
+    branches: Vec<Command>,
+    /// Where the states of a target end; it has none here where an angle is free.
+    state_ends: Vec<usize>,
+    states: Vec<State>,
+    fault: Option<SolveError>,
+    room: Vec<Command>,
+}
+
+impl Reached {
+    fn clear(&mut self) {
+        self.targets.clear();
+        self.held.clear();
+        self.branch_ends.clear();
+        self.branches.clear();
+        self.state_ends.clear();
+        self.states.clear();
+        self.fault = None;
+    }
+
+    fn part<'l, T>(list: &'l [T], ends: &[usize], i: usize) -> &'l [T] {
+        &list[i.checked_sub(1).map_or(0, |before| ends[before])..ends[i]]
+    }
+
+    fn branches(&self, i: usize) -> &[Command] {
+        Self::part(&self.branches, &self.branch_ends, i)
+    }
+
+    fn states(&self, i: usize) -> &[State] {
+        Self::part(&self.states, &self.state_ends, i)
+    }
+}
+
 /// The commands as far as a continuous motion leads, and the jump that it ends at.
 pub(super) fn follow(
     machine: &Machine,
     path: &[Target],
     from: &Command,
 ) -> Result<(Vec<Command>, Option<FollowError>), FollowError> {
-    let at = |index: usize| move |fault: FollowFault| FollowError { index, fault };
-    let mut solver = Solver::new(machine, from).map_err(|e| at(0)(e.into()))?;
-    solver.placer = Placer::of(machine, &solver.serial);
-    let way = PathSolver { solver: &solver, rotary: machine.rotary_axes().collect() };
-    let mut stages = Stages::with_capacity(path.len());
+    let solver = FollowSolver::of(machine, from)?;
+    let (mut follower, mut reached) = (Follower::on(&solver), Reached::default());
+    let mut followed = FollowedPath::default();
     let mut jump = None;
-    while stages.len() < path.len() && jump.is_none() {
-        let next = stages.len();
-        way.add_stages(path, &mut stages).map_err(|(i, fault)| at(i)(fault))?;
-        jump = (next..stages.len()).find_map(|i| way.label(&mut stages, i).err().map(at(i)));
+    for block in path.chunks(BLOCK) {
+        solver.reach(block.iter().copied(), &mut reached);
+        jump = follower.take(&mut reached, &mut followed)?;
+        if jump.is_some() {
+            break;
+        }
     }
-    let reached = jump.as_ref().map_or(path.len(), |jump| jump.index);
-    Ok((way.walk_back(&stages, reached), jump))
+    let jump = follower.finish(&mut followed)?.or(jump);
+    let points = path.iter().take(followed.len()).enumerate();
+    Ok((points.map(|(i, target)| solver.command(&followed, i, target)).collect(), jump))
 }
 
-struct PathSolver<'a> {
-    solver: &'a Solver<'a>,
+/// Finds the ways to reach each target of a path that begins at one command.
+pub struct FollowSolver<'m> {
+    solver: Solver<'m>,
     /// The rotary axes in chain order.
     rotary: Vec<usize>,
 }
 
-impl PathSolver<'_> {
+impl<'m> FollowSolver<'m> {
+    pub(super) fn of(machine: &'m Machine, from: &Command) -> Result<Self, FollowError> {
+        let at_first = |e: SolveError| FollowError { index: 0, fault: e.into() };
+        let mut solver = Solver::new(machine, from).map_err(at_first)?;
+        solver.placer = Placer::of(machine, &solver.serial);
+        Ok(Self { solver, rotary: machine.rotary_axes().collect() })
+    }
+
+    /// Finds the ways to reach these targets, in place of what `reached` holds, up to the first that
+    /// cannot be reached.
+    pub fn reach(&self, targets: impl IntoIterator<Item = Target>, reached: &mut Reached) {
+        reached.clear();
+        let mut commands = std::mem::take(&mut reached.room);
+        for target in targets {
+            match self.solver.branches_into(&target, &mut commands) {
+                Err(fault) => {
+                    reached.fault = Some(fault);
+                    break;
+                }
+                Ok(held) => {
+                    if self.offered(held).is_none() {
+                        self.push_states(&commands, held, &mut reached.states);
+                    }
+                    reached.targets.push(target);
+                    reached.held.push(held);
+                    reached.branches.extend_from_slice(&commands);
+                    reached.branch_ends.push(reached.branches.len());
+                    reached.state_ends.push(reached.states.len());
+                }
+            }
+        }
+        reached.room = commands;
+    }
+
+    /// The axis positions at a point that is decided, whose target this is.
+    pub fn command(&self, followed: &FollowedPath, point: usize, target: &Target) -> Command {
+        let [placed, turned] = followed.angles(point);
+        let command = self.with_angles(&self.solver.from, placed);
+        // The same place was found before.
+        let placed = self.solver.place_tip(command, target).unwrap_or(command);
+        self.with_angles(&placed, turned)
+    }
+
+    /// The rotary axes of the same; the linear ones stand where the path was begun.
+    pub fn turned(&self, followed: &FollowedPath, point: usize) -> Command {
+        self.with_angles(&self.solver.from, followed.angles(point)[1])
+    }
+
+    fn with_angles(&self, command: &Command, angles: [f64; 2]) -> Command {
+        let mut command = *command;
+        for (turn, q) in self.solver.aim.turning.iter().zip(angles) {
+            command[turn.axis] = q;
+        }
+        for &axis in self.rotary.iter().filter(|&&axis| self.is_endless(axis)) {
+            command[axis] += 0.0; // −0 is 0
+        }
+        command
+    }
+
     fn travel(&self, axis: usize) -> Travel {
         self.solver.machine.axes[axis].travel
     }
@@ -161,80 +271,33 @@ impl PathSolver<'_> {
         !matches!(self.travel(axis), Travel::Between(..))
     }
 
-    /// Adds the next point; where its angles are free, all points up to the next one that tells.
-    fn add_stages(&self, path: &[Target], stages: &mut Stages) -> Result<(), (usize, FollowFault)> {
-        let first = stages.len();
-        let mut poles: Vec<Branches> = Vec::new();
-        let mut commands = Vec::with_capacity(2);
-        let mut held = None;
-        for (i, target) in path.iter().enumerate().skip(first) {
-            held = self.solver.branches_into(target, &mut commands).map_err(|e| (i, e.into()))?;
-            if self.offered(held).is_none() {
-                break;
-            }
-            poles.push(Branches { commands: std::mem::take(&mut commands), held });
-        }
-        let tells = first + poles.len();
-        // The solutions for the point after the poles; none at the end of the path.
-        let mut after = Vec::new();
-        if !poles.is_empty() && tells < path.len() {
-            self.push_states(&commands, held, &mut after);
-        }
-        for (i, branches) in (first..).zip(&poles) {
-            let before = first.checked_sub(1).map_or(&[][..], |before| stages.states(before));
-            let offered = self.at_pole(&path[i], branches, [before, &after]);
-            let offered = offered.map_err(|e| (i, e.into()))?;
-            self.add_stage(path, stages, &offered, branches.held)?;
-        }
-        if tells < path.len() {
-            self.add_stage(path, stages, &commands, held)?;
-        }
-        Ok(())
-    }
-
-    fn add_stage(
-        &self,
-        path: &[Target],
-        stages: &mut Stages,
-        commands: &[Command],
-        held: Option<usize>,
-    ) -> Result<(), (usize, FollowFault)> {
-        let (i, before) = (stages.len(), stages.states.len());
-        self.push_states(commands, held, &mut stages.states);
-        if stages.states.len() == before {
-            return Err((i, self.leaves_travel(&path[i])));
-        }
-        stages.axes.push(path[i].axis.vector());
-        stages.held.push(held);
-        stages.ends.push(stages.states.len());
-        Ok(())
-    }
-
     /// The axis whose angle is free at this point: one that aims elsewhere on the path.
     fn offered(&self, held: Option<usize>) -> Option<usize> {
         held.filter(|axis| self.solver.aim.turning.iter().any(|turn| turn.axis == *axis))
     }
 
+    fn angles(&self, command: &Command) -> [f64; 2] {
+        let mut angles = [0.0; 2];
+        for (angle, turn) in angles.iter_mut().zip(&self.solver.aim.turning) {
+            *angle = command[turn.axis];
+        }
+        angles
+    }
+
     /// At a pole: the free angles of the nearest points that are none.
-    fn at_pole(
-        &self,
-        target: &Target,
-        branches: &Branches,
-        neighbours: [&[Command]; 2],
-    ) -> Result<Vec<Command>, SolveError> {
-        let Some(axis) = self.offered(branches.held) else {
-            return Ok(branches.commands.clone());
-        };
-        let mut angles: Vec<f64> = neighbours.into_iter().flatten().map(|s| s[axis]).collect();
+    fn at_pole(&self, pole: &Pole, neighbours: [&[State]; 2]) -> Result<Vec<Command>, SolveError> {
+        let Some(axis) = self.offered(pole.held) else { return Ok(pole.branches.clone()) };
+        let states = neighbours.into_iter().flatten();
+        let mut angles: Vec<f64> = states.map(|s| s.command[axis]).collect();
         if angles.is_empty() {
-            angles.push(branches.commands[0][axis]);
+            angles.extend(pole.branches.first().map(|command| command[axis]));
         }
         angles.sort_by(f64::total_cmp);
         angles.dedup_by(|a, b| (*a - *b).abs() < 1e-12);
         let (mut commands, mut missed) = (Vec::new(), None);
-        for command in &branches.commands {
+        for command in &pole.branches {
             for &angle in &angles {
-                match self.solver.place_tip(with(command, axis, angle), target) {
+                match self.solver.place_tip(with(command, axis, angle), &pole.target) {
                     Ok(command) => commands.push(command),
                     Err(error) => missed = Some(error),
                 }
@@ -247,40 +310,69 @@ impl PathSolver<'_> {
     }
 
     /// Every turn of every command that lies within the travel, best to begin with first.
-    fn push_states(&self, commands: &[Command], held: Option<usize>, states: &mut Vec<Command>) {
+    #[expect(clippy::cast_possible_truncation, reason = "no travel has 2^31 turns")]
+    fn push_states(&self, commands: &[Command], held: Option<usize>, states: &mut Vec<State>) {
         let begin = states.len();
-        for command in commands {
+        for (branch, command) in (0..).zip(commands) {
             let own = states.len();
-            states.push(*command);
-            for turn in &self.solver.aim.turning {
+            states.push(State { command: *command, branch, turns: [0; 2], order: 0 });
+            for (place, turn) in self.solver.aim.turning.iter().enumerate().take(2) {
                 let (axis, travel) = (turn.axis, self.travel(turn.axis));
                 if held == Some(axis) || self.is_endless(axis) {
                     continue;
                 }
                 let end = states.len();
                 for q in others(travel, command[axis], 0.0) {
-                    (own..end).for_each(|k| states.push(with(&states[k], axis, q)));
+                    let turns = ((q - command[axis]) / TAU).round() as i32;
+                    for k in own..end {
+                        let mut state = states[k];
+                        (state.command[axis], state.turns[place]) = (q, turns);
+                        states.push(state);
+                    }
                 }
             }
+            self.keep_inside(own, states);
         }
-        let mut kept = begin;
-        for k in begin..states.len() {
-            if self.solver.machine.within_travel(&states[k]) {
+        for state in &mut states[begin..] {
+            state.order = self.order(&state.command);
+        }
+        let angle = |s: &State, n: usize| self.rotary.get(n).map_or(0.0, |&i| s.command[i]);
+        states[begin..].sort_by(|a, b| {
+            (a.order.cmp(&b.order))
+                .then_with(|| angle(a, 0).total_cmp(&angle(b, 0)))
+                .then_with(|| angle(a, 1).total_cmp(&angle(b, 1)))
+        });
+    }
+
+    /// Keeps the turns of one command that lie within the travel; all other axes stand alike.
+    fn keep_inside(&self, own: usize, states: &mut Vec<State>) {
+        let inside = |axis: usize, q: f64| self.travel(axis).contains(q);
+        let aims = |axis: usize| self.solver.aim.turning.iter().any(|turn| turn.axis == axis);
+        let command = states[own].command;
+        let axes = 0..self.solver.machine.axes.len();
+        if !axes.into_iter().all(|axis| aims(axis) || inside(axis, command[axis])) {
+            states.truncate(own);
+            return;
+        }
+        let mut kept = own;
+        for k in own..states.len() {
+            let turning = &self.solver.aim.turning;
+            if turning.iter().all(|turn| inside(turn.axis, states[k].command[turn.axis])) {
                 states.swap(kept, k);
                 kept += 1;
             }
         }
         states.truncate(kept);
-        let angle = |c: &Command, n: usize| self.rotary.get(n).map_or(0.0, |&i| c[i]);
-        let outside = |c: &Command| {
-            self.rotary.iter().filter(|&&i| c[i] <= -PI - TIE_RAD || c[i] > PI + TIE_RAD).count()
+    }
+
+    /// Within half a turn of zero first, then a second angle that is not negative.
+    fn order(&self, command: &Command) -> usize {
+        let outside = |&&axis: &&usize| {
+            let q = command[axis];
+            q <= -PI - TIE_RAD || q > PI + TIE_RAD
         };
-        states[begin..].sort_by(|a, b| {
-            (outside(a), angle(a, 1) < -TIE_RAD)
-                .cmp(&(outside(b), angle(b, 1) < -TIE_RAD))
-                .then(angle(a, 0).total_cmp(&angle(b, 0)))
-                .then(angle(a, 1).total_cmp(&angle(b, 1)))
-        });
+        let second = self.rotary.get(1).map_or(0.0, |&axis| command[axis]);
+        2 * self.rotary.iter().filter(outside).count() + usize::from(second < -TIE_RAD)
     }
 
     /// The turn of an axis from one state to the next; the shorter way round if it is endless.
@@ -288,19 +380,6 @@ impl PathSolver<'_> {
         match self.is_endless(axis) {
             true => nearest(after[axis], before[axis]) - before[axis],
             false => after[axis] - before[axis],
-        }
-    }
-
-    /// The best way to every state of a point whose points before it have theirs.
-    fn label(&self, stages: &mut Stages, point: usize) -> Result<(), FollowFault> {
-        match point.checked_sub(1) {
-            None => {
-                let first = stages.states(0).iter().enumerate();
-                let labels: Vec<Label> = first.map(|(rank, s)| self.start(rank, s)).collect();
-                stages.labels.extend(labels);
-                Ok(())
-            }
-            Some(before) => self.advance(stages, before),
         }
     }
 
@@ -313,86 +392,41 @@ impl PathSolver<'_> {
     }
 
     /// The best way to every state of the next point; a state that none leads to costs infinity.
-    fn advance(&self, stages: &mut Stages, point: usize) -> Result<(), FollowFault> {
-        let unreached = Label { cost: f64::INFINITY, first: 0.0, rank: usize::MAX, before: 0 };
+    fn advance(&self, point: &Stage, next: &mut Stage) -> Result<(), FollowFault> {
         let (mut jump, mut is_reached) = ((f64::INFINITY, 0, 0.0), false);
-        for next in stages.range(point + 1) {
-            let mut best = unreached;
-            for (before, state) in stages.range(point).enumerate() {
-                let label = stages.labels[state];
-                if label.cost == f64::INFINITY {
+        let steps = Steps::between(self, point, next);
+        next.labels.clear();
+        for (number, state) in next.states.iter().enumerate() {
+            let sure = steps.sure(point, number, &state.command);
+            let begin = sure.map_or(0, |_| number + 1);
+            let mut best = sure.unwrap_or(Label::UNREACHED);
+            is_reached |= best.is_reached();
+            for (before, from) in point.states.iter().enumerate().skip(begin) {
+                let label = &point.labels[before];
+                if !label.is_reached()
+                    || is_reached && steps.is_dearer(label, &from.command, &state.command, &best)
+                {
                     continue;
                 }
-                let ends = [&stages.states[state], &stages.states[next]];
-                let step = Step::between(self, [stages.held[point], stages.held[point + 1]], ends);
-                let first = self.rotary.first().map_or(0.0, |&i| step.turns[i].abs());
-                let (cost, first) = (label.cost + step.cost, label.first + first);
-                let candidate = Label { cost, first, rank: label.rank, before };
+                let step = steps.to(&from.command, &state.command);
+                let candidate = step.after(label, before);
                 // Whether a step is continuous is checked only where it matters.
                 if !candidate.beats(&best) {
                     continue;
                 }
-                if self.is_continuous([stages.axes[point], stages.axes[point + 1]], ends[0], &step)
-                {
+                if steps.is_continuous(&from.command, &step) {
                     (best, is_reached) = (candidate, true);
                 } else if step.cost < jump.0 {
                     jump = (step.cost, step.most, step.turns[step.most].abs());
                 }
             }
-            stages.labels.push(best);
+            next.labels.push(best);
         }
         if is_reached {
             return Ok(());
         }
         let axis = self.solver.machine.axes[jump.1].name;
         Err(FollowFault::Jump { axis, by_rad: jump.2 })
-    }
-
-    /// Whether the tool axis stays between its ends on a step: on the way it is never farther from
-    /// either end than they are from each other. Checked halfway, and at every 90° of turning.
-    fn is_continuous(&self, ends: [Vec3; 2], before: &Command, step: &Step) -> bool {
-        let apart = |a: Vec3, b: Vec3| a.cross(&b).norm().atan2(a.dot(&b));
-        let allowed = apart(ends[0], ends[1]) + TIE_RAD;
-        let total: f64 = step.turns.iter().map(|turn| turn.abs()).sum();
-        if 0.5 * total <= allowed {
-            return true;
-        }
-        let parts = (total / FRAC_PI_2).ceil().max(2.0);
-        (1..).map(f64::from).take_while(|part| *part < parts).all(|part| {
-            let mut between = *before;
-            for (q, turn) in between.iter_mut().zip(&step.turns) {
-                *q += turn * part / parts;
-            }
-            let tool = self.solver.serial.tool_axis(&between);
-            ends.iter().all(|end| apart(tool, *end) <= allowed)
-        })
-    }
-
-    /// The commands of the first points, along the best way to the last of them.
-    fn walk_back(&self, stages: &Stages, points: usize) -> Vec<Command> {
-        let mut best: Option<usize> = None;
-        let mut commands = Vec::with_capacity(points);
-        for point in (0..points).rev() {
-            let range = stages.range(point);
-            let labels = &stages.labels[range.clone()];
-            let at = best.unwrap_or_else(|| {
-                (0..labels.len()).fold(0, |best, i| match labels[i].beats(&labels[best]) {
-                    true => i,
-                    false => best,
-                })
-            });
-            commands.push(stages.states[range.start + at]);
-            best = Some(labels[at].before);
-        }
-        commands.reverse();
-        let mut before = self.solver.from;
-        for command in &mut commands {
-            for &axis in self.rotary.iter().filter(|&&i| self.is_endless(i)) {
-                command[axis] = nearest(command[axis], before[axis]);
-            }
-            before = *command;
-        }
-        commands
     }
 
     /// Which axis leaves its travel, and how far, in the entry that leaves it least.
@@ -417,36 +451,5 @@ impl PathSolver<'_> {
             .unwrap_or((0.0, 0.0, 0));
         let axis = &machine.axes[least.2];
         FollowFault::LeavesTravel { axis: axis.name, kind: axis.kind, beyond: least.1 }
-    }
-}
-
-/// One step from state to state.
-struct Step {
-    /// Of each axis; 0 for linear ones.
-    turns: Command,
-    cost: f64,
-    /// The axis that turns most.
-    most: usize,
-}
-
-impl Step {
-    /// √(Δq1² + Δq2²); where one end is a pole the turn of its idle axis counts twice, so that it
-    /// turns while the tool stands, not while it tilts.
-    fn between(way: &PathSolver<'_>, held: [Option<usize>; 2], states: [&Command; 2]) -> Self {
-        let (mut turns, mut most) = (Command::default(), 0);
-        for &axis in &way.rotary {
-            turns[axis] = way.turn(axis, states[0], states[1]);
-            if turns[axis].abs() > turns[most].abs() {
-                most = axis;
-            }
-        }
-        let idle = match (held[0], held[1]) {
-            (Some(axis), None) | (None, Some(axis)) => turns[axis].abs(),
-            _ => 0.0,
-        };
-        let squares: f64 = turns.iter().map(|turn| turn * turn).sum();
-        let others = (squares - idle * idle).max(0.0).sqrt();
-        let cost = if idle > 0.0 { others + 2.0 * idle } else { squares.sqrt() };
-        Self { turns, cost, most }
     }
 }

@@ -10,11 +10,13 @@ use crate::report::{self, PostReport};
 use serde_json::Value;
 use std::path::PathBuf;
 use trueaxis_calibrate::plan::extension;
-use trueaxis_cl::{ClFile, Reading};
+use trueaxis_cl::{ClFile, ClPath, Reading};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_machine::Machine;
 use trueaxis_part::TestPieceFile;
-use trueaxis_post::{FeedRule, PostOptions, Posted, Verification, post, verify};
+use trueaxis_post::{
+    FeedRule, PostOptions, Posted, Verification, post, post_path, verify, verify_in_place,
+};
 use trueaxis_report::{Report, document};
 use trueaxis_writer::{BUILT_IN, Decimals, MOST_DECIMALS, Templates, TipWords, WriteError};
 
@@ -62,7 +64,8 @@ pub struct Post {
 /// A program with its proof.
 pub struct PostAnswer {
     machine: Machine,
-    file: ClFile,
+    /// The name of the file, and how many points it has.
+    file: (String, usize),
     options: PostOptions,
     posted: Posted,
     verification: Option<Verification>,
@@ -78,16 +81,17 @@ pub fn template(control: &str, problems: &mut Diagnostics) -> Option<&'static st
 }
 
 impl Post {
-    fn read_file(&self, files: &Files, problems: &mut Diagnostics) -> Option<ClFile> {
-        let text = match self.file.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
-            true => {
-                test_piece::read(&self.file, files, self.tolerance.parse().ok()?, problems)?.into()
-            }
-            false => files.bytes(&self.file, "a cutter-location file", problems)?,
-        };
+    fn read_file(&self, files: &Files, problems: &mut Diagnostics) -> Option<ClPath> {
+        let text: Vec<u8> =
+            match self.file.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
+                true => {
+                    test_piece::read(&self.file, files, self.tolerance.parse().ok()?, problems)?
+                        .into()
+                }
+                false => files.bytes(&self.file, "a cutter-location file", problems)?,
+            };
         let reading = Reading { inches: self.inches };
-        let file = problems.keep(ClFile::read(&self.file.display().to_string(), text, &reading));
-        Some(file)
+        Some(problems.keep(ClPath::read(&self.file.display().to_string(), &text, &reading)))
     }
 
     fn options(&self, files: &Files, problems: &mut Diagnostics) -> Option<PostOptions> {
@@ -204,7 +208,7 @@ impl Post {
 }
 
 impl Question for Post {
-    type Input = (Machine, ClFile, PostOptions, SetUpPaths);
+    type Input = (Machine, ClPath, PostOptions, SetUpPaths);
     type Answer = PostAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
@@ -228,13 +232,14 @@ impl Question for Post {
 
     fn answer(
         &self,
-        (machine, file, options, set_up): Self::Input,
+        (machine, path, options, set_up): Self::Input,
         _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<PostAnswer> {
-        let posted = problems.keep(post(&machine, &file, &options));
-        let posted = posted.filter(|_| !problems.has_errors())?;
-        let verification = self.verify.then(|| verify(&machine, &posted, &options));
+        let file = (path.name().to_owned(), path.points());
+        let posted = problems.keep(post_path(&machine, path, &options));
+        let mut posted = posted.filter(|_| !problems.has_errors())?;
+        let verification = self.verify.then(|| verify_in_place(&machine, &mut posted, &options));
         let output = self.output.clone();
         let (set_up, set_up_is_sound) = self.set_up_files(&machine, &options, &set_up, problems)?;
         Some(PostAnswer {
@@ -254,7 +259,8 @@ impl PostAnswer {
     fn shown(&self) -> PostReport<'_> {
         PostReport {
             machine: &self.machine,
-            file: &self.file,
+            file: &self.file.0,
+            points: self.file.1,
             options: &self.options,
             posted: &self.posted,
             verification: self.verification.as_ref(),
@@ -277,11 +283,11 @@ impl Answer for PostAnswer {
     }
 
     fn files(&mut self) -> Vec<NewFile> {
-        let program = || NewFile::of("", &self.output, self.posted.text.clone());
-        match self.is_yes() {
-            true => [program()].into_iter().chain(std::mem::take(&mut self.set_up)).collect(),
-            false => Vec::new(),
+        if !self.is_yes() {
+            return Vec::new();
         }
+        let program = NewFile::of("", &self.output, std::mem::take(&mut self.posted.text));
+        [program].into_iter().chain(std::mem::take(&mut self.set_up)).collect()
     }
 
     fn notes(&self) -> Vec<String> {

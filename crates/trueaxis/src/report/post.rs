@@ -1,7 +1,6 @@
 //! An NC program from cutter locations.
 
 use std::path::Path;
-use trueaxis_cl::ClFile;
 use trueaxis_machine::Machine;
 use trueaxis_post::{Largest, PostOptions, Posted, Verification};
 use trueaxis_report::{Report, Section, Standing, Table};
@@ -11,8 +10,10 @@ use trueaxis_report::{Report, Section, Standing, Table};
 pub struct PostReport<'a> {
     /// The machine that it is for.
     pub machine: &'a Machine,
-    /// The cutter locations.
-    pub file: &'a ClFile,
+    /// The file of the cutter locations.
+    pub file: &'a str,
+    /// How many points it has.
+    pub points: usize,
     /// How it was written.
     pub options: &'a PostOptions,
     /// The program.
@@ -28,21 +29,15 @@ impl PostReport<'_> {
     pub fn is_sound(&self) -> bool {
         self.verification.is_none_or(|v| v.is_within(self.options))
     }
-
-    /// How many lines the program has.
-    pub(super) fn lines(&self) -> usize {
-        self.posted.text.iter().filter(|b| **b == b'\n').count()
-    }
 }
 
 /// A program as text and page.
 pub fn post_report(report: &PostReport<'_>) -> Report<'static> {
-    let PostReport { file, posted, verification, output, .. } = report;
+    let PostReport { points, posted, verification, output, .. } = report;
     let mut answer = Report::new(format!(
-        "{} points -> {} blocks in {} lines, {} {}",
-        file.points().count(),
+        "{points} points -> {} blocks in {} lines, {} {}",
         posted.blocks,
-        report.lines(),
+        posted.lines,
         if report.is_sound() { "written to" } else { "not written to" },
         output.display()
     ));

@@ -75,17 +75,17 @@ pub struct LargestEntry {
 
 impl<'a> From<&PostReport<'a>> for PostDocument<'a> {
     fn from(report: &PostReport<'a>) -> Self {
-        let PostReport { machine, file, options, posted, verification, output } = report;
+        let PostReport { machine, file, points, options, posted, verification, output } = report;
         Self {
             schema: "trueaxis/post/1",
             machine: machine.name(),
-            file: file.name(),
+            file,
             program: output.display().to_string(),
             written: report.is_sound(),
-            points: file.points().count(),
+            points: *points,
             strokes: posted.strokes,
             blocks: posted.blocks,
-            lines: report.lines(),
+            lines: posted.lines,
             arcs: posted.arcs,
             holes: posted.holes(),
             rewinds: posted.rewinds,
