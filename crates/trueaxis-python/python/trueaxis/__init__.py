@@ -1,0 +1,116 @@
+"""TrueAxis: where is the tool of a machine really, and is the part good?
+
+Machines over numpy arrays (:class:`Machine`), and the verbs of the command ``trueaxis`` as functions, with the same
+words and units: mm and degrees for commands, mm, µm and µrad in answers; every name ends in its unit.
+
+>>> import trueaxis
+>>> machine = trueaxis.Machine.load("machines/xkas2525/machine.toml")
+>>> machine.axes
+('X', 'Y', 'Z', 'C', 'A')
+>>> machine.deviation([[3000, 1200, -700, -90, 15]])
+<Deviations of 1 pose>
+  tip 35.134 -20.773 11.643 um   axis 357.202 101.073 166.475 urad
+"""
+
+
+from typing import Optional
+
+from . import _native
+from ._answers import Answer, Record
+from ._machine import Deviations, Errors, Machine, Poses, Solutions
+from ._problems import Diagnostic, Place, TrueAxisError, TrueAxisNote, TrueAxisWarning
+from ._verbs import (
+    compensate_adapt,
+    compensate_program,
+    compensate_tables,
+    compensate_values,
+    evaluate,
+    evaluate_form,
+    identify,
+    identify_expansion,
+    identify_probe,
+    identify_rtcp,
+    identify_surface,
+    identify_tables,
+    identify_thermal,
+    identify_tools,
+    measure,
+    part,
+    plan,
+    plan_probe_surface,
+    plan_tool_setting,
+    pose,
+    post,
+    predict,
+    simulate,
+    solve,
+    trace,
+    verify,
+)
+
+__version__: str = _native.VERSION
+
+#: A machine file with one error, for examples: Y is not square to X by 10 µrad, and the tool is 100 mm long.
+EXAMPLE = """
+[machine]
+name = "three axes"
+chain = "w b X Y Z t"
+[tool]
+length = "100 mm"
+[location]
+EC0Y = "10 urad"
+"""
+
+
+def explain(code: str) -> Optional[str]:
+    """What the code of a diagnostic means and what to do (Markdown), as ``trueaxis explain``; None if it is not known.
+
+    >>> print(explain("table-too-short").splitlines()[0])
+    An error table does not cover the travel of its axis.
+    """
+    found = _native.explain(code)
+    return None if found is None else found[1]
+
+
+__all__ = [
+    "EXAMPLE",
+    "Answer",
+    "Deviations",
+    "Diagnostic",
+    "Errors",
+    "Machine",
+    "Place",
+    "Poses",
+    "Record",
+    "Solutions",
+    "TrueAxisError",
+    "TrueAxisNote",
+    "TrueAxisWarning",
+    "compensate_adapt",
+    "compensate_program",
+    "compensate_tables",
+    "compensate_values",
+    "evaluate",
+    "evaluate_form",
+    "explain",
+    "identify",
+    "identify_expansion",
+    "identify_probe",
+    "identify_rtcp",
+    "identify_surface",
+    "identify_tables",
+    "identify_thermal",
+    "identify_tools",
+    "measure",
+    "part",
+    "plan",
+    "plan_probe_surface",
+    "plan_tool_setting",
+    "pose",
+    "post",
+    "predict",
+    "simulate",
+    "solve",
+    "trace",
+    "verify",
+]
