@@ -16,6 +16,8 @@ pub type Held = Box<dyn Answer + Send>;
 pub struct NativeAnswer {
     answer: Mutex<Held>,
     found: Diagnostics,
+    /// Whether its text is that of the report, and not what the command prints.
+    reads_as_report: bool,
     /// Whether the verdict is "yes", where there is one.
     #[pyo3(get)]
     is_yes: bool,
@@ -35,7 +37,14 @@ impl NativeAnswer {
     pub fn new(answer: Held, found: Diagnostics, written: Vec<String>) -> Self {
         let (is_yes, notes) = (answer.is_yes(), answer.notes());
         let in_spite_of_errors = answer.in_spite_of_errors();
-        Self { answer: Mutex::new(answer), found, is_yes, in_spite_of_errors, notes, written }
+        let answer = Mutex::new(answer);
+        let reads_as_report = false;
+        Self { answer, found, reads_as_report, is_yes, in_spite_of_errors, notes, written }
+    }
+
+    /// The same with the report as its text: where what the command prints depends on the form that was asked for.
+    pub fn by_report(self) -> Self {
+        Self { reads_as_report: true, ..self }
     }
 
     fn held(&self) -> MutexGuard<'_, Held> {
@@ -57,6 +66,9 @@ impl NativeAnswer {
     /// What the command prints.
     fn text(&self, py: Python<'_>) -> String {
         py.detach(|| {
+            if self.reads_as_report {
+                return self.held().report().text();
+            }
             let mut text = Vec::new();
             // A vector takes every byte.
             let _ = self.held().write_text(&mut text);

@@ -158,7 +158,7 @@ def test_a_vector_becomes_three_columns():
 
 def test_warnings_and_notes_have_their_category():
     with pytest.warns(TrueAxisWarning) as caught:
-        answer = trueaxis.pose(XKAS, at={"X": 1e5})
+        answer = trueaxis.pose(MILL, at={"X": 1e5})
     assert caught[0].filename == __file__
     assert {d.severity for d in answer.diagnostics} <= {"warning", "note"}
     assert len(caught) == len(answer.diagnostics) and "outside-travel" in {d.code for d in answer.diagnostics}
@@ -166,7 +166,7 @@ def test_warnings_and_notes_have_their_category():
     with warnings.catch_warnings():
         warnings.simplefilter("error", TrueAxisWarning)
         with pytest.raises(TrueAxisWarning):
-            trueaxis.pose(XKAS, at={"X": 1e5})
+            trueaxis.pose(MILL, at={"X": 1e5})
 
 
 @pytest.mark.parametrize(
@@ -191,6 +191,25 @@ def test_what_makes_no_question_is_refused(ask, code, place):
     assert error.message in str(error) and error.diagnostics[0].severity == "error"
 
 
+def test_values_are_written_in_a_form(command, tmp_path):
+    for form in ("text", "json", "csv"):
+        answer = trueaxis.compensate_values(MILL, axis="X", step=50, output=tmp_path / f"p.{form}", format=form)
+        command.run("compensate", "values", MILL, "--axis", "X", "--step", 50, "--format", form, "-o", tmp_path / f"c.{form}")
+        assert (tmp_path / f"p.{form}").read_text() == (tmp_path / f"c.{form}").read_text()
+        assert "Values of X" in answer.text and answer.schema == "trueaxis/compensate/1"
+    with pytest.raises(TrueAxisError, match="`format` has a meaning only together with `output`"):
+        trueaxis.compensate_values(MILL, axis="X", format="csv")
+
+
+def test_licences_are_those_of_the_lock():
+    locked = open("Cargo.lock", encoding="utf-8").read()
+    listed = re.findall(r"^  (\S+) (\S+): (.+)", trueaxis.licenses(), re.MULTILINE)
+    assert {"pyo3", "numpy", "nalgebra"} <= {name for name, *_ in listed}
+    assert not {"axum", "clap"} & {name for name, *_ in listed}
+    for name, version, _ in listed:
+        assert f'name = "{name}"\nversion = "{version}"' in locked, "run scripts/sbom --licenses"
+
+
 def test_codes_are_explained():
     assert "**To do:**" in trueaxis.explain("array-shape")
     assert trueaxis.explain("no-such-code") is None
@@ -205,21 +224,23 @@ WORDS = {
     "evaluate_form": ["evaluate", "form"],
     **{verb: [verb] for verb in "pose solve part simulate trace predict measure plan identify post evaluate verify".split()},
 }
-#: Not for Python: how the command prints. Only for Python: whether pictures are recorded; the folder of a set-up's template.
-COMMAND_ONLY = {"format", "help", "no-report", "show-template"}
-PYTHON_ONLY = {"pictures", "format"}
+#: Not for Python: how the command prints.
+COMMAND_ONLY = {"help", "no-report", "show-template"}
+#: Whether pictures are recorded; a report and a format everywhere or where a file is written.
+PYTHON_ONLY = {"pictures", "format", "report"}
 
 
 def test_every_function_is_known():
     functions = {name for name in trueaxis.__all__ if inspect.isfunction(getattr(trueaxis, name))}
-    assert functions - {"explain"} == set(WORDS)
+    assert functions - {"explain", "licenses"} == set(WORDS)
 
 
 @pytest.mark.parametrize("verb", WORDS)
 def test_options_are_those_of_the_command(command, verb):
     shown = command.text(*WORDS[verb], "--help")
     options = set(re.findall(r"^ +(?:-\w, )?--([a-z-]+)", shown, re.MULTILINE)) - COMMAND_ONLY
-    positional = {word.lower() for word in re.findall(r"^  [\[<]([A-Z]+)", shown, re.MULTILINE)}
+    # An option without a long name.
+    options |= {"output"} & {"output" for _ in re.findall(r"^ +-o <", shown, re.MULTILINE)}
     parameters = inspect.signature(getattr(trueaxis, verb)).parameters
     named = {name.rstrip("_").replace("_", "-") for name, p in parameters.items() if p.kind is p.KEYWORD_ONLY}
-    assert named - PYTHON_ONLY == options, (named ^ options, positional)
+    assert named - PYTHON_ONLY == options - PYTHON_ONLY, named ^ options

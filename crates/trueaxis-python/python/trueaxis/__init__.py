@@ -13,6 +13,7 @@ words and units: mm and degrees for commands, mm, µm and µrad in answers; ever
 """
 
 
+from pathlib import Path
 from typing import Optional
 
 from . import _native
@@ -72,6 +73,15 @@ def explain(code: str) -> Optional[str]:
     return None if found is None else found[1]
 
 
+def licenses() -> str:
+    """The licences of everything in this package.
+
+    >>> licenses().splitlines()[2]
+    'TrueAxis (26 packages): MIT OR Apache-2.0'
+    """
+    return (Path(__file__).parent / "licenses.txt").read_text(encoding="utf-8")
+
+
 __all__ = [
     "EXAMPLE",
     "Answer",
@@ -101,6 +111,7 @@ __all__ = [
     "identify_tables",
     "identify_thermal",
     "identify_tools",
+    "licenses",
     "measure",
     "part",
     "plan",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -99,7 +99,7 @@ def _lines(count: int, line: Any) -> str:
     return "\n".join("  …" if row is None else f"  {line(row)}" for row in rows)
 
 
-def _numbers(row: Sequence[float], digits: int) -> str:
+def _numbers(row: Iterable[Any], digits: int) -> str:
     # No minus before a zero, as the command writes it.
     return " ".join(f"{round(float(x), digits) + 0.0:.{digits}f}" for x in row)
 
@@ -242,7 +242,8 @@ class Errors(_Rows):
         """The values of one error, of the shape (n,), µm or µrad."""
         if name not in self.names:
             raise KeyError(f"the machine has no error {name}; it has {', '.join(self.names)}")
-        return self._block[self.names.index(name)]
+        row: Floats = self._block[self.names.index(name)]
+        return row
 
     def _columns(self) -> Dict[str, npt.NDArray[Any]]:
         columns = {f"{name}_{unit}": self[name] for name, unit in zip(self.names, self.units)}
@@ -267,7 +268,7 @@ class Solutions(_Rows):
     def __init__(
         self,
         commands: Floats,
-        within_travel: Bools,
+        within_limits: Bools,
         singular: Bools,
         axes: Tuple[str, ...],
         units: Tuple[str, ...],
@@ -276,7 +277,7 @@ class Solutions(_Rows):
         #: The axis positions, of the shape (n, number of axes), mm and degrees; as :meth:`Machine.deviation` takes them.
         self.commands = commands
         #: Whether all axes stay within their travel, of the shape (n,).
-        self.within_travel = within_travel
+        self.within_limits = within_limits
         #: Whether a rotary axis has no effect there and has kept its angle, of the shape (n,).
         self.singular = singular
         #: The names of the axes.
@@ -292,7 +293,7 @@ class Solutions(_Rows):
         columns: Dict[str, npt.NDArray[Any]] = {
             f"{axis}_{unit}": self.commands[:, i] for i, (axis, unit) in enumerate(named)
         }
-        return {**columns, "within_travel": self.within_travel, "singular": self.singular}
+        return {**columns, "within_limits": self.within_limits, "singular": self.singular}
 
     def __repr__(self) -> str:
         def line(row: int) -> str:

@@ -3,6 +3,8 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, final
 import numpy as np
 import numpy.typing as npt
 
+__all__ = ["Answer", "Machine", "VERSION", "ask", "deviations", "errors_at", "explain", "follow", "solve"]
+
 VERSION: str
 
 _Entry = Tuple[str, str, str, str, str, int, int]

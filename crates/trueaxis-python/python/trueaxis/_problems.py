@@ -18,7 +18,7 @@ class Place(NamedTuple):
 
     >>> Place("machine.toml", 12, 5)
     Place(file='machine.toml', line=12, column=5)
-    >>> Place("commands[7, 3]", 0, 0).index
+    >>> Place("commands[7, 3]", 0, 0).entry
     (7, 3)
     """
 
@@ -27,7 +27,7 @@ class Place(NamedTuple):
     column: int
 
     @property
-    def index(self) -> Optional[Tuple[int, ...]]:
+    def entry(self) -> Optional[Tuple[int, ...]]:
         """Row, or row and column, of an entry of an array, from 0 as numpy counts; None elsewhere."""
         found = re.fullmatch(r"\w+\[([\d, ]+)\]", self.file)
         return tuple(int(n) for n in found.group(1).split(",")) if found else None

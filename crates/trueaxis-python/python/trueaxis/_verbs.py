@@ -67,6 +67,7 @@ _NEED = [
     ("step", "axis"),
     ("targets", "axis"),
     ("correct", "output"),
+    ("format", "output"),
 ]
 
 
@@ -391,7 +392,7 @@ def identify(
     check_conventions: try other signs, orders and units of the readings.
 
     >>> trueaxis.identify("examples/05_identify/probe-ball.toml").schema
-    'trueaxis/identify-errors/1'
+    'trueaxis/identify/1'
     """
     return _ask("identify", locals())
 
@@ -535,7 +536,7 @@ def compensate_values(
     axis: the axis of a table over the travel; at: the other axes, or one position of all, mm and degrees.
     step: distance of the positions (mm, degrees); targets: these positions instead.
     increment: the least increment, ``"1 um"``. of: ``comprehensive`` or ``machine``.
-    output: write to this file, in a format (json, text, csv). machine_only: without a part.
+    output: write to this file, in a format (text, json, csv). machine_only: without a part.
     tool_length: length of the tool from the holder to the tip, mm, instead of the tool of the machine file.
     tool: a tool assembly of the machine file, by its name.
     temperature, temperature_log, log_time: readings of the sensors, °C; a log of them; the time in the log, s.

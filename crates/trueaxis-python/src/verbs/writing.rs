@@ -16,7 +16,7 @@ use trueaxis::writer::TipWords;
 /// Puts the question of a verb of this file; none if it is not one.
 pub fn ask(verb: &str, o: &Options<'_, '_>, door: &Door<'_>) -> PyResult<Option<NativeAnswer>> {
     Ok(Some(match verb {
-        "compensate_values" => door.ask(&values(o, door)?)?,
+        "compensate_values" => door.ask(&values(o, door)?)?.by_report(),
         "compensate_program" => door.ask(&program(o)?)?,
         "compensate_tables" => door.ask(&tables(o, door)?)?,
         "compensate_adapt" => door.ask(&adapt(o, door)?)?,
@@ -28,8 +28,11 @@ pub fn ask(verb: &str, o: &Options<'_, '_>, door: &Door<'_>) -> PyResult<Option<
 fn values(o: &Options<'_, '_>, door: &Door<'_>) -> PyResult<CompensateValues> {
     let errors =
         [("comprehensive", Compensation::Comprehensive), ("machine", Compensation::Machine)];
-    let forms = [("json", ValuesForm::Json), ("text", ValuesForm::Text), ("csv", ValuesForm::Csv)];
+    let forms = [("text", ValuesForm::Text), ("json", ValuesForm::Json), ("csv", ValuesForm::Csv)];
     let form = choice(door.py(), "format", o.text("format")?, &forms)?;
+    let output = o.path("output")?;
+    // Without a file the form is that of the document, which says all that was found.
+    let form = form.filter(|_| output.is_some()).unwrap_or(ValuesForm::Json);
     Ok(CompensateValues {
         machine: o.machine()?,
         axis: o.text("axis")?,
@@ -39,8 +42,8 @@ fn values(o: &Options<'_, '_>, door: &Door<'_>) -> PyResult<CompensateValues> {
         increment: o.text("increment")?,
         of: choice(door.py(), "of", o.text("of")?, &errors)?.unwrap_or(Compensation::Comprehensive),
         machine_only: o.is("machine_only")?,
-        form: form.unwrap_or(ValuesForm::Json),
-        output: o.path("output")?,
+        form,
+        output,
     })
 }
 
