@@ -32,7 +32,7 @@ fn new_pool(count: usize) -> PyResult<Arc<ThreadPool>> {
 
 fn usual_pool() -> PyResult<Arc<ThreadPool>> {
     let process = std::process::id();
-    // A lock that is held, perhaps by a thread that the fork left behind, is not waited for.
+    // A lock that is held, perhaps by a thread that is not in this process, is not waited for.
     let Ok(mut held) = POOL.try_lock() else { return new_pool(0) };
     if let Some((_, pool)) = held.as_ref().filter(|(of, _)| *of == process) {
         return Ok(Arc::clone(pool));

@@ -2,7 +2,9 @@
 
 import doctest
 import re
+import runpy
 import warnings
+from pathlib import Path
 
 import pytest
 import trueaxis
@@ -23,13 +25,27 @@ def test_examples_of_a_page(page):
     text = open(page, encoding="utf-8").read()
     blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     assert blocks
+    names = {}
     for block in blocks:
-        parsed = doctest.DocTestParser().get_doctest(block, {}, page, page, 0)
+        parsed = doctest.DocTestParser().get_doctest(block, names, page, page, 0)
         if parsed.examples:
-            assert doctest.DocTestRunner().run(parsed).failed == 0
+            assert doctest.DocTestRunner().run(parsed, clear_globs=False).failed == 0
+            names = parsed.globs
         else:
             exec(compile(block, page, "exec"), {})
     assert trueaxis.__version__
+
+
+def test_types_of_documents_are_those_of_the_schemas():
+    made = runpy.run_path("crates/trueaxis-python/documents.py")["written"]()
+    place = Path("crates/trueaxis-python/python/trueaxis/documents.py")
+    assert place.read_text(encoding="utf-8") == made, "run crates/trueaxis-python/documents.py"
+
+
+@pytest.mark.filterwarnings("ignore::trueaxis.TrueAxisWarning")
+def test_a_document_has_the_entries_of_its_type():
+    answer = trueaxis.simulate("machines/i5-engraver/machine.toml", "examples/02_simulate/ring-fanuc.nc")
+    assert set(answer.to_dict()) <= set(trueaxis.documents.SimulateDocument.__annotations__)
 
 
 def test_every_public_thing_is_described():

@@ -16,7 +16,7 @@ words and units: mm and degrees for commands, mm, µm and µrad in answers; ever
 from pathlib import Path
 from typing import Optional
 
-from . import _native
+from . import _native, documents
 from ._answers import Answer, Record
 from ._machine import Deviations, Errors, Machine, Poses, Solutions
 from ._problems import Diagnostic, Place, TrueAxisError, TrueAxisNote, TrueAxisWarning
@@ -100,6 +100,7 @@ __all__ = [
     "compensate_program",
     "compensate_tables",
     "compensate_values",
+    "documents",
     "evaluate",
     "evaluate_form",
     "explain",

@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 from typing import Any, Dict, Mapping, Optional, Sequence, Tuple, Union
 
-from . import _native
+from . import _native, documents
 from ._answers import Answer
 from ._machine import Machine, Path, needs, not_both, path_of, text_of
 from ._problems import refuse, warn
@@ -164,7 +164,7 @@ def part(
     output: Optional[Path] = None,
     report: Optional[Path] = None,
     force: bool = False,
-) -> Answer[Any]:
+) -> Answer[documents.PartDocument]:
     """What a part file asks for, or a draft of one from a QIF file: ``trueaxis part``.
 
     output: write the draft of a QIF file here.
@@ -204,7 +204,7 @@ def simulate(
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
     force: bool = False,
-) -> Answer[Any]:
+) -> Answer[documents.SimulateDocument]:
     """An NC program on the actual machine: time, travel, deviations of the tool, issues: ``trueaxis simulate``.
 
     program: the NC program.
@@ -255,7 +255,7 @@ def trace(
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
     force: bool = False,
-) -> Answer[Any]:
+) -> Answer[documents.TraceDocument]:
     """One block of a program through every stage of the simulation: ``trueaxis trace``.
 
     block: its number N; if there is none, its line.
@@ -334,7 +334,7 @@ def plan(
     output: Optional[Path] = None,
     report: Optional[Path] = None,
     force: bool = False,
-) -> Answer[Any]:
+) -> Answer[documents.PlanDocument]:
     """Which errors a measurement determines, with what uncertainty, and its programs: ``trueaxis plan``.
 
     control: the control of the NC programs (sinumerik). output: write programs, poses and campaign into this folder.
@@ -352,7 +352,7 @@ def plan_probe_surface(
     output: Optional[Path] = None,
     report: Optional[Path] = None,
     force: bool = False,
-) -> Answer[Any]:
+) -> Answer[documents.PlanProbeSurfaceDocument]:
     """A probing path over a surface without a collision: ``trueaxis plan probe-surface``.
 
     control: the control of the NC program (sinumerik). output: write program and points into this folder.
@@ -369,7 +369,7 @@ def plan_tool_setting(
     output: Optional[Path] = None,
     report: Optional[Path] = None,
     force: bool = False,
-) -> Answer[Any]:
+) -> Answer[documents.PlanToolSettingDocument]:
     """The program that measures the tools of a set-up: ``trueaxis plan tool-setting``.
 
     tools: only these, such as ``"1,2"``. control: the control of the NC program (sinumerik). output: its folder.
@@ -385,7 +385,7 @@ def identify(
     check_conventions: bool = False,
     report: Optional[Path] = None,
     force: bool = False,
-) -> Answer[Any]:
+) -> Answer[documents.IdentifyErrorsDocument]:
     """The errors of the machine from measurements, with their uncertainties: ``trueaxis identify``.
 
     output: write a machine file with the identified errors. predictor: one with the prediction by all errors.
@@ -417,7 +417,7 @@ def identify_tables(
     output: Optional[Path] = None,
     report: Optional[Path] = None,
     force: bool = False,
-) -> Answer[Any]:
+) -> Answer[documents.IdentifyTablesDocument]:
     """Error tables and squareness from laser readings and ball-bar circles: ``trueaxis identify tables``.
 
     output: write the machine file with these tables into this new folder.
@@ -431,7 +431,7 @@ def identify_surface(
     output: Optional[Path] = None,
     report: Optional[Path] = None,
     force: bool = False,
-) -> Answer[Any]:
+) -> Answer[documents.IdentifySurfaceDocument]:
     """The deviations of a surface from the hits of a probing program: ``trueaxis identify surface``.
 
     output: write the table of deviations to this file.
@@ -445,7 +445,7 @@ def identify_thermal(
     score: Optional[Union[Path, Sequence[Path]]] = None,
     report: Optional[Path] = None,
     force: bool = False,
-) -> Answer[Any]:
+) -> Answer[documents.IdentifyThermalDocument]:
     """A linear model of an error that drifts with temperatures, from logs: ``trueaxis identify thermal``.
 
     score: later logs that the model has not seen.
@@ -503,7 +503,7 @@ def identify_tools(
     output: Optional[Path] = None,
     report: Optional[Path] = None,
     force: bool = False,
-) -> Answer[Any]:
+) -> Answer[documents.IdentifyToolsDocument]:
     """Length, diameter and wear of tools from the log of a tool setting: ``trueaxis identify tools``.
 
     tools: those of the program, such as ``"1,2"``. date: when it was measured. output: write lines for the set-up.
@@ -530,7 +530,7 @@ def compensate_values(
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
     force: bool = False,
-) -> Answer[Any]:
+) -> Answer[documents.CompensateDocument]:
     """The values that the control must add, per axis and position: ``trueaxis compensate values``.
 
     axis: the axis of a table over the travel; at: the other axes, or one position of all, mm and degrees.
@@ -573,7 +573,7 @@ def compensate_program(
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
     force: bool = False,
-) -> Answer[Any]:
+) -> Answer[documents.CompensateProgramDocument]:
     """An NC program rewritten so that the actual tool follows the programmed path: ``trueaxis compensate program``.
 
     output: the compensated program. setup, control: as of :func:`simulate`.
@@ -611,7 +611,7 @@ def compensate_tables(
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
     force: bool = False,
-) -> Answer[Any]:
+) -> Answer[documents.CompensateTablesDocument]:
     """The tables of a control, read back, with the residual errors: ``trueaxis compensate tables``.
 
     target: csv, linuxcnc, sinumerik, fanuc, heidenhain or isg. output: the folder of the files, new or empty.
@@ -639,7 +639,7 @@ def compensate_adapt(
     cl: Optional[Path] = None,
     report: Optional[Path] = None,
     force: bool = False,
-) -> Answer[Any]:
+) -> Answer[documents.CompensateAdaptDocument]:
     """A path moved onto the blank that was measured, and the wall that remains: ``trueaxis compensate adapt``.
 
     output, control: write the program of the adapted path for this control. tcp: ``on`` or ``off``.
@@ -679,7 +679,7 @@ def post(
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
     force: bool = False,
-) -> Answer[Any]:
+) -> Answer[documents.PostDocument]:
     """Cutter locations to the NC program of one control: ``trueaxis post``.
 
     file: APT of a CAM system, a table x y z i j k, or a test piece. control, output: of the program.
@@ -742,7 +742,7 @@ def evaluate_form(
     u: Optional[str] = None,
     report: Optional[Path] = None,
     force: bool = False,
-) -> Answer[Any]:
+) -> Answer[documents.EvaluateFormDocument]:
     """Roundness, straightness, flatness, sphericity, cylindricity of points: ``trueaxis evaluate form``.
 
     element: line, circle, plane, sphere, cylinder, …. reference: LSC, MZC, …. filter: ``"gauss 50 upr"``.
