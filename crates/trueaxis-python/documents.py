@@ -27,7 +27,7 @@ name Python has taken (`from`) only as an item. Entries that are marked so may b
 
 from __future__ import annotations
 
-from typing import Any, List, Literal, Mapping, Optional, Union
+from typing import Any, List, Literal, Mapping, Optional
 
 from ._answers import Record
 '''

@@ -4,14 +4,14 @@ use crate::arrays::{Wanted, not_finite};
 use crate::machine::{NativeMachine, approach};
 use crate::problems::{listed, refused};
 use crate::threads;
-use numpy::ndarray::ArrayView2;
+use numpy::ndarray::{ArrayView2, s};
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 use rayon::prelude::*;
 use trueaxis::describe::to_inner;
 use trueaxis::input::{Diagnostics, Place};
-use trueaxis::machine::axis::{Approach, Command, MAX_AXES};
+use trueaxis::machine::axis::{Approach, Command, MAX_AXES, Travel};
 use trueaxis::machine::batch::{Commands, CompiledMachine, DeviationColumns};
 use trueaxis::report::PoseReport;
 
@@ -49,16 +49,12 @@ impl Block {
     ) {
         let machine = compiled.machine();
         for (axis, column) in self.columns.iter_mut().enumerate() {
-            let travel = &machine.axes()[axis].travel;
-            let mut outside = (0, 0);
-            let given = commands.column(axis);
-            let rows = given.iter().skip(from).take(count);
-            for (row, (inner, value)) in column.iter_mut().zip(rows).enumerate() {
-                *inner = to_inner(machine, axis, *value);
-                if !travel.contains(*inner) {
-                    outside = (if outside.1 == 0 { from + row } else { outside.0 }, outside.1 + 1);
-                }
-            }
+            // What 1 becomes is the factor: 1, or that of degrees.
+            let factor = to_inner(machine, axis, 1.0);
+            let given = commands.slice(s![from..from + count, axis]);
+            let column = &mut column[..count];
+            column.iter_mut().zip(given).for_each(|(inner, value)| *inner = value * factor);
+            let outside = outside(&machine.axes()[axis].travel, column, from);
             self.outside[axis] = outside;
         }
     }
@@ -66,6 +62,18 @@ impl Block {
     fn slices(&self, count: usize) -> Vec<&[f64]> {
         self.columns.iter().map(|column| &column[..count]).collect()
     }
+}
+
+/// The first row and the number of rows outside the travel; the extremes of most blocks say that there are none.
+fn outside(travel: &Travel, column: &[f64], from: usize) -> (usize, usize) {
+    let extremes = column.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
+        [if *value < low { *value } else { low }, if *value > high { *value } else { high }]
+    });
+    if column.is_empty() || extremes.iter().all(|value| travel.contains(*value)) {
+        return (0, 0);
+    }
+    let mut rows = column.iter().enumerate().filter(|(_, value)| !travel.contains(**value));
+    rows.next().map_or((0, 0), |(first, _)| (from + first, rows.count() + 1))
 }
 
 /// What came of a block: rows outside the travel, and the first row without a pose.

@@ -8,10 +8,13 @@ from pathlib import Path
 
 import pytest
 import trueaxis
-from trueaxis import _answers, _machine, _problems, _verbs
+from trueaxis import _answers, _compensate, _describe, _identify, _machine, _measurement, _poses, _problems
 
 
-@pytest.mark.parametrize("module", [trueaxis, _answers, _machine, _problems, _verbs])
+MODULES = [trueaxis, _answers, _compensate, _describe, _identify, _machine, _measurement, _poses, _problems]
+
+
+@pytest.mark.parametrize("module", MODULES)
 def test_examples_of_the_package(module):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", trueaxis.TrueAxisWarning)

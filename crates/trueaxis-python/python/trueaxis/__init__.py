@@ -13,20 +13,28 @@ words and units: mm and degrees for commands, mm, µm and µrad in answers; ever
 """
 
 
+from importlib import import_module
 from pathlib import Path
-from typing import Optional
+from typing import TYPE_CHECKING, Any, Optional
 
-from . import _native, documents
+from . import _native
 from ._answers import Answer, Record
-from ._machine import Deviations, Errors, Machine, Poses, Solutions
-from ._problems import Diagnostic, Place, TrueAxisError, TrueAxisNote, TrueAxisWarning
-from ._verbs import (
+from ._compensate import (
     compensate_adapt,
     compensate_program,
     compensate_tables,
     compensate_values,
-    evaluate,
-    evaluate_form,
+    post,
+)
+from ._describe import (
+    part,
+    pose,
+    predict,
+    simulate,
+    solve,
+    trace,
+)
+from ._identify import (
     identify,
     identify_expansion,
     identify_probe,
@@ -35,19 +43,22 @@ from ._verbs import (
     identify_tables,
     identify_thermal,
     identify_tools,
+)
+from ._measurement import (
+    evaluate,
+    evaluate_form,
     measure,
-    part,
     plan,
     plan_probe_surface,
     plan_tool_setting,
-    pose,
-    post,
-    predict,
-    simulate,
-    solve,
-    trace,
     verify,
 )
+from ._machine import Machine
+from ._poses import Deviations, Errors, Poses, Solutions
+from ._problems import Diagnostic, Place, TrueAxisError, TrueAxisNote, TrueAxisWarning
+
+if TYPE_CHECKING:
+    from . import documents
 
 __version__: str = _native.VERSION
 
@@ -61,6 +72,13 @@ length = "100 mm"
 [location]
 EC0Y = "10 urad"
 """
+
+
+def __getattr__(name: str) -> Any:
+    # Types only: thousands of lines that nothing needs at run time.
+    if name == "documents":
+        return import_module(".documents", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def explain(code: str) -> Optional[str]:
