@@ -244,3 +244,16 @@ def test_options_are_those_of_the_command(command, verb):
     parameters = inspect.signature(getattr(trueaxis, verb)).parameters
     named = {name.rstrip("_").replace("_", "-") for name, p in parameters.items() if p.kind is p.KEYWORD_ONLY}
     assert named - PYTHON_ONLY == options - PYTHON_ONLY, named ^ options
+
+
+@pytest.mark.filterwarnings("ignore::trueaxis.TrueAxisWarning")
+def test_work_goes_on_in_spite_of_errors(tmp_path):
+    program = tmp_path / "wrong.nc"
+    program.write_text("G0 X1 Y1\nG1 X[1/0] F100\nG0 X3\nM30\n")
+    options = {"control": "fanuc", "no_collisions": True}
+    with pytest.raises(TrueAxisError) as raised:
+        trueaxis.simulate(ENGRAVER, program, **options)
+    assert (raised.value.place.file, raised.value.place.line) == (str(program), 2)
+    with pytest.warns(TrueAxisWarning):
+        answer = trueaxis.simulate(ENGRAVER, program, keep_going=True, **options)
+    assert answer.in_spite_of_errors and "error" in {d.severity for d in answer.diagnostics}

@@ -89,6 +89,11 @@ class Answer(Generic[D]):
         return self._native.is_yes
 
     @property
+    def in_spite_of_errors(self) -> Optional[str]:
+        """How the work ended where it went on in spite of errors (``keep_going``), which stand in ``diagnostics``."""
+        return self._native.in_spite_of_errors
+
+    @property
     def written(self) -> List[str]:
         """The files that were written."""
         return self._native.written
