@@ -19,8 +19,8 @@ use trueaxis::report::PoseReport;
 const BLOCK: usize = 2048;
 /// Bad rows that are named.
 const MOST_NAMED: usize = 20;
-/// Numbers of a pose: nominal tip, nominal axis, deviation of the tip, of the axis.
-const NUMBERS: usize = 12;
+/// Numbers of a deviation: of the tip, of the axis. With the nominal tip and the nominal axis before them they are twice as many.
+const NUMBERS: usize = 6;
 /// What the array of commands is called in messages.
 const NAME: &str = "commands";
 
@@ -30,13 +30,17 @@ type Found<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyList>);
 /// The commands of a block as columns in mm and rad, and where its axes stand outside their travel.
 struct Block {
     columns: Vec<Vec<f64>>,
+    /// Nominal tip and axis where they are not asked for: they stay in the cache.
+    nominal: [Vec<f64>; NUMBERS],
     /// First row and number of rows of each axis.
     outside: [(usize, usize); MAX_AXES],
 }
 
 impl Block {
     fn new(axes: usize) -> Self {
-        Self { columns: vec![vec![0.0; BLOCK]; axes], outside: [(0, 0); MAX_AXES] }
+        let column = || vec![0.0; BLOCK];
+        let nominal = std::array::from_fn(|_| column());
+        Self { columns: vec![column(); axes], nominal, outside: [(0, 0); MAX_AXES] }
     }
 
     /// Reads some rows, whatever the strides of the array.
@@ -57,10 +61,6 @@ impl Block {
             let outside = outside(&machine.axes()[axis].travel, column, from);
             self.outside[axis] = outside;
         }
-    }
-
-    fn slices(&self, count: usize) -> Vec<&[f64]> {
-        self.columns.iter().map(|column| &column[..count]).collect()
     }
 }
 
@@ -94,10 +94,23 @@ fn blocks(table: &mut [f64], count: usize) -> Vec<Vec<&mut [f64]>> {
     all
 }
 
-/// The twelve columns of a block, where there are twelve.
-fn columns<'a>(block: &'a mut [&mut [f64]]) -> Option<DeviationColumns<'a>> {
-    let block: &mut [&mut [f64]; NUMBERS] = block.try_into().ok()?;
-    let [tx, ty, tz, ax, ay, az, dx, dy, dz, ex, ey, ez] = block.each_mut().map(|c| &mut **c);
+/// Where a block is written: six columns of deviations, the nominal pose before them or in `nominal`.
+fn columns<'a>(
+    out: &'a mut [&mut [f64]],
+    nominal: &'a mut [Vec<f64>; NUMBERS],
+    count: usize,
+) -> Option<DeviationColumns<'a>> {
+    let (before, deviations) = out.split_at_mut(out.len().checked_sub(NUMBERS)?);
+    let kept: [&mut [f64]; NUMBERS] = match before.is_empty() {
+        true => nominal.each_mut().map(|column| &mut column[..count]),
+        false => {
+            let before: &mut [&mut [f64]; NUMBERS] = before.try_into().ok()?;
+            before.each_mut().map(|column| &mut **column)
+        }
+    };
+    let deviations: &mut [&mut [f64]; NUMBERS] = deviations.try_into().ok()?;
+    let [tx, ty, tz, ax, ay, az] = kept;
+    let [dx, dy, dz, ex, ey, ez] = deviations.each_mut().map(|column| &mut **column);
     Some(DeviationColumns {
         nominal_tip_mm: [tx, ty, tz],
         nominal_axis: [ax, ay, az],
@@ -117,20 +130,22 @@ fn computed(
         let from = number * BLOCK;
         let count = BLOCK.min(commands.nrows() - from);
         block.gather(compiled, commands, from, count);
-        let positions = block.slices(count);
+        let Block { columns: positions, nominal, outside } = block;
+        let positions: Vec<&[f64]> = positions.iter().map(|column| &column[..count]).collect();
         let known: Vec<Vec<f64>> = match sides.iter().any(|side| *side != 0.0) {
             true => sides[..axes].iter().map(|side| vec![*side; count]).collect(),
             false => Vec::new(),
         };
         let known: Vec<&[f64]> = known.iter().map(Vec::as_slice).collect();
         let asked = Commands::new(&positions).approached(&known);
-        let done = columns(out).map(|mut out| compiled.deviations(&asked, &mut out));
+        let done =
+            columns(out, nominal, count).map(|mut out| compiled.deviations(&asked, &mut out));
         let bad = match done {
             Some(Ok(())) => None,
             Some(Err(error)) => Some(from + error.index().unwrap_or(0)),
             None => Some(from),
         };
-        Outcome { outside: block.outside, bad }
+        Outcome { outside: *outside, bad }
     };
     let mut out = blocks(table, commands.nrows());
     out.par_iter_mut().enumerate().map_init(|| Block::new(axes), work).collect()
@@ -209,15 +224,16 @@ fn close<'py>(
     }
 }
 
-/// Twelve rows of n numbers: nominal tip, nominal axis, deviation of the tip (mm), of the axis (1). Written into
-/// `out` where it is given.
+/// Rows of n numbers: nominal tip (mm) and nominal axis (1) if `with_nominal`, deviation of the tip (mm), of the axis (1).
+/// Written into `out` where it is given.
 #[pyfunction]
-#[pyo3(signature = (machine, commands, sides, threads, out))]
+#[pyo3(signature = (machine, commands, sides, threads, with_nominal, out))]
 pub fn deviations<'py>(
     machine: &Bound<'py, NativeMachine>,
     commands: &Bound<'py, PyAny>,
     sides: Vec<f64>,
     threads: Option<usize>,
+    with_nominal: bool,
     out: Option<Bound<'py, PyArray2<f64>>>,
 ) -> PyResult<Found<'py>> {
     let (py, native) = (commands.py(), machine.get());
@@ -229,7 +245,10 @@ pub fn deviations<'py>(
     // numpy asks for large pages, which cost far fewer page faults than those of a vector.
     let table = match out {
         Some(table) => table,
-        None => PyArray2::zeros(py, [NUMBERS, commands.nrows()], false),
+        None => {
+            let rows = if with_nominal { 2 * NUMBERS } else { NUMBERS };
+            PyArray2::zeros(py, [rows, commands.nrows()], false)
+        }
     };
     let outcomes = {
         let mut writable = table.try_readwrite()?;

@@ -217,7 +217,7 @@ class Machine:
         >>> machine.deviation([[0, 100, 0], [0, 500, 0]]).tip_um[:, 0].round(6)
         array([-1., -5.])
         """
-        block, found = self._deviations(commands, approach, threads, out)
+        block, found = self._deviations(commands, approach, threads, out, False)
         return Deviations(block, found)
 
     def pose(
@@ -226,29 +226,30 @@ class Machine:
         *,
         approach: Union[str, Mapping[str, str], None] = None,
         threads: Optional[int] = None,
-        out: Optional[Deviations] = None,
+        out: Optional[Poses] = None,
     ) -> Poses:
         """Nominal and actual poses of the tool in the workpiece frame (mm; unit vectors), with their deviations.
 
-        Arguments as of :meth:`deviation`; the work is the same.
+        Arguments as of :meth:`deviation`; the work is the same, the result twice as large.
 
         >>> import trueaxis
         >>> machine = trueaxis.Machine.from_text(trueaxis.EXAMPLE)
         >>> machine.pose([[10, 500, 30]]).nominal_tip_mm
         array([[ 10., 500., -70.]])
         """
-        block, found = self._deviations(commands, approach, threads, out)
+        block, found = self._deviations(commands, approach, threads, out, True)
         return Poses(block, found)
 
     def _deviations(
-        self, commands: Any, approach: Any, threads: Optional[int], out: Optional[Deviations]
+        self, commands: Any, approach: Any, threads: Optional[int], out: Optional[Deviations], nominal: bool
     ) -> Tuple[Floats, Tuple[Diagnostic, ...]]:
         array, sides = self._array(commands), self._sides(approach)
         block = None if out is None else out._block
-        if block is not None and block.shape[1] != len(array):
-            shape = f"`out` has {block.shape[1]} poses, the commands {len(array)}"
-            raise refuse("array-shape", "out", shape, "give a result of as many poses, or none")
-        block, entries = _native.deviations(self._native, array, sides, threads, block)
+        if block is not None and (block.shape[1] != len(array) or (nominal and len(block) < 12)):
+            what = "poses" if len(block) == 12 else "deviations"
+            shape = f"`out` has {block.shape[1]} {what}, the commands {len(array)}"
+            raise refuse("array-shape", "out", shape, "give a result of the same function and of as many poses")
+        block, entries = _native.deviations(self._native, array, sides, threads, nominal, block)
         found = diagnostics(entries)
         warn(found, 3)
         return block, found

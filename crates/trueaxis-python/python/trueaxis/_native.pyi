@@ -53,7 +53,12 @@ class Machine:
     def diagnostics(self) -> List[_Entry]: ...
 
 def deviations(
-    machine: Machine, commands: Any, sides: Sequence[float], threads: Optional[int], out: Optional[_Floats]
+    machine: Machine,
+    commands: Any,
+    sides: Sequence[float],
+    threads: Optional[int],
+    with_nominal: bool,
+    out: Optional[_Floats],
 ) -> Tuple[_Floats, List[_Entry]]: ...
 def errors_at(
     machine: Machine, commands: Any, sides: Sequence[float], threads: Optional[int]

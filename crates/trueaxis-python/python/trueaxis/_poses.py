@@ -94,7 +94,7 @@ class Deviations(_Rows):
     @property
     def tip_mm(self) -> Floats:
         """Deviation of the tip, mm."""
-        return self._block[6:9].T
+        return self._block[-6:-3].T
 
     @property
     def tip_um(self) -> Floats:
@@ -104,7 +104,7 @@ class Deviations(_Rows):
     @property
     def axis(self) -> Floats:
         """Deviation of the unit vector of the tool axis, actual − nominal, without a unit (rad for small angles)."""
-        return self._block[9:12].T
+        return self._block[-3:].T
 
     @property
     def axis_urad(self) -> Floats:
@@ -119,7 +119,7 @@ class Deviations(_Rows):
         }
 
     def _line(self, row: int) -> str:
-        tip, axis = self._block[6:9, row] * 1e3, self._block[9:12, row] * 1e6
+        tip, axis = self._block[-6:-3, row] * 1e3, self._block[-3:, row] * 1e6
         return f"tip {_numbers(tip, 3)} um   axis {_numbers(axis, 3)} urad"
 
     def __repr__(self) -> str:
