@@ -17,7 +17,7 @@ const OTHER_WORDS: &str = "opc-ua sign-and-encrypt part-lost program-line datum-
     simulation-block simulation-curves simulation-path simulation-source small-angle stages-contradict table-table \
     test-piece three-axis head-table touch-probe-ball touch-probe-face turns-with-axis utf-8 what-if w-offset \
     x-content-type-options x-rot x-rot-point x-www-browser x-www-form-urlencoded \
-    kebab-case serve-socket-request xdg-open xyzac-trt-kins xyzbc-trt-kins y-rot y-rot-point z-offset z-rot-point numbers";
+    axis-limit inverse-time kebab-case serve-socket-request xdg-open xyzac-trt-kins xyzbc-trt-kins y-rot y-rot-point z-offset z-rot-point numbers";
 
 /// Codes of one word where no call shows that they are codes: matched to a kind of issue or passed
 /// to a closure.

@@ -15,7 +15,7 @@ use serde_json::Value;
 use trueaxis_report::{Report, Section, Table, document};
 
 /// In the order of the work: what everything shares first.
-const PAGES: [&str; 13] = [
+const PAGES: [&str; 14] = [
     include_str!("../../../docs/diagnostics/input.md"),
     include_str!("../../../docs/diagnostics/machine-file.md"),
     include_str!("../../../docs/diagnostics/temperatures.md"),
@@ -29,6 +29,7 @@ const PAGES: [&str; 13] = [
     include_str!("../../../docs/diagnostics/live.md"),
     include_str!("../../../docs/diagnostics/verify.md"),
     include_str!("../../../docs/diagnostics/serve.md"),
+    include_str!("../../../docs/diagnostics/python.md"),
 ];
 
 /// So many codes are proposed for one that is not known.

@@ -79,7 +79,7 @@ pub enum Target {
 
 impl Target {
     /// The control.
-    pub fn control(self) -> Box<dyn Control + Sync> {
+    pub fn control(self) -> Box<dyn Control + Send + Sync> {
         match self {
             Self::Csv => Box::new(csv::Csv),
             Self::LinuxCnc { trims } => Box::new(linuxcnc::LinuxCnc { trims }),

@@ -44,7 +44,7 @@ pub struct LoadedTables {
     /// What they compensate.
     pub of: Compensation,
     /// How the control interpolates.
-    pub control: Box<dyn Control + Sync>,
+    pub control: Box<dyn Control + Send + Sync>,
     /// What it holds.
     pub content: Content,
 }

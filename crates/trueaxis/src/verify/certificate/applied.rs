@@ -18,7 +18,7 @@ pub enum AppliedCompensation {
         /// The compiled tables with their files.
         compiled: Box<Compiled>,
         /// How the control interpolates.
-        control: Box<dyn Control + Sync>,
+        control: Box<dyn Control + Send + Sync>,
         /// What it holds.
         content: Box<Content>,
     },

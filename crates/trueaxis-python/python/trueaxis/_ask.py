@@ -1,0 +1,93 @@
+"""The verbs of the command as functions: the same questions, the same options by the same names.
+
+A path is a text or a ``pathlib.Path``. A quantity is a text with its unit (``"2 um"``) or, where the option states a
+unit, a plain number in that unit. Positions and temperatures may be mappings: ``{"X": 3000, "C": -90}``. Every function
+takes `report`, the file of an HTML report, and `force`, which replaces files that this program did not write.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Dict, Mapping, Sequence, Union
+
+from . import _native
+from ._answers import Answer
+from ._machine import Machine, needs, not_both, path_of, text_of
+from ._problems import refuse, warn
+
+#: A number in the unit that the option states, or a text.
+Number = Union[float, str]
+#: Positions of axes: ``{"X": 10}`` or ``"X=10"``, mm and degrees.
+Positions = Union[str, Mapping[str, float]]
+#: Three numbers, or a text of them.
+Vector = Union[str, Sequence[float]]
+
+#: Options that may be given more than once.
+_LISTS = frozenset(["diff", "files", "history", "limit", "score", "tolerance", "write_back"])
+
+
+def ask(verb: str, given: Dict[str, Any]) -> Answer[Any]:
+    """Puts a question; `given` are the arguments of the function that was called, by their names."""
+    report, force = given.pop("report"), given.pop("force")
+    memory: Dict[str, bytes] = {}
+    options: Dict[str, Any] = {name.rstrip("_"): _option(name, value) for name, value in given.items()}
+    machine = given.get("machine")
+    if isinstance(machine, Machine):
+        memory = {os.fspath(path): content for path, content in machine._native.files.items()}
+        for name, value in machine._options.items():
+            if name == "machine" or options.get(name) is None:
+                options[name] = value
+    for one, other in _EXCLUDE:
+        not_both(options, one, other)
+    for one, other in _NEED:
+        if one in options and other in options:
+            needs(options, one, other)
+    native = _native.ask(verb, options, memory, path_of(report), bool(force))
+    answer: Answer[Any] = Answer(native)
+    warn(answer.diagnostics, 3)
+    return answer
+
+
+#: Options that exclude each other, and those that have a meaning only together with another, as in the command.
+_EXCLUDE = [
+    ("tool", "tool_length"),
+    ("temperature", "temperature_log"),
+    ("log_time", "log_start"),
+    ("at", "at_file"),
+    ("step", "targets"),
+    ("by_count", "no_densify"),
+    ("programs", "corrections"),
+    ("programs", "table"),
+    ("programs", "correct"),
+]
+_NEED = [
+    ("log_time", "temperature_log"),
+    ("log_start", "temperature_log"),
+    ("smooth", "three_phase"),
+    ("step", "axis"),
+    ("targets", "axis"),
+    ("correct", "output"),
+    ("format", "output"),
+]
+
+
+def _option(name: str, value: Any) -> Any:
+    if value is None or isinstance(value, (bool, Machine)) or name in _COUNTS:
+        return value
+    if name in _LISTS:
+        entries = value if isinstance(value, (list, tuple)) else [value]
+        return [os.fspath(entry) if isinstance(entry, os.PathLike) else text_of(entry) for entry in entries]
+    return os.fspath(value) if isinstance(value, os.PathLike) else text_of(value)
+
+
+#: Options that are whole numbers.
+_COUNTS = frozenset(["seed", "block", "most_jumps", "number"])
+
+
+
+def one_of(name: str, *given: Any) -> None:
+    """Refuses a question that is not one."""
+    count = sum(value is not None for value in given)
+    if count != 1:
+        message = f"{count} of the arguments that say what is asked are given, not one"
+        raise refuse("unused-argument", name, message, "see the description of the function")

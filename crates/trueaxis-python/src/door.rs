@@ -1,0 +1,137 @@
+//! A question of the library put from Python: as the command does, read, check the outputs, compute, write.
+
+use crate::answer::{Held, NativeAnswer};
+use crate::machine::{Contents, with_contents};
+use crate::options::Options;
+use crate::problems::refused;
+use crate::threads;
+use crate::verbs;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::{Path, PathBuf};
+use trueaxis::files::output::{Guard, Output, no_file_twice};
+use trueaxis::files::{self, noted_disk};
+use trueaxis::input::{Diagnostics, Place};
+use trueaxis::questions::{Answer, Content, NewFile, Question, is_finite, may_put};
+
+/// What is read from memory, what is written, and whether what stands there is replaced.
+pub struct Door<'py> {
+    py: Python<'py>,
+    memory: Contents,
+    report: Option<PathBuf>,
+    force: bool,
+}
+
+/// Puts the question of a verb; `options` by the names of the command.
+#[pyfunction]
+#[pyo3(signature = (verb, options, memory, report, force))]
+pub fn ask(
+    py: Python<'_>,
+    verb: &str,
+    options: &Bound<'_, PyDict>,
+    memory: Contents,
+    report: Option<PathBuf>,
+    force: bool,
+) -> PyResult<NativeAnswer> {
+    let door = Door { py, memory, report, force };
+    verbs::ask(verb, &Options(options), &door)
+}
+
+impl Door<'_> {
+    /// The interpreter.
+    pub fn py(&self) -> Python<'_> {
+        self.py
+    }
+
+    /// Puts a question and writes what it leaves.
+    pub fn ask<Q>(&self, question: &Q) -> PyResult<NativeAnswer>
+    where
+        Q: Question + Sync,
+        Q::Answer: Send + 'static,
+    {
+        let (memory, report, force) = (&self.memory, self.report.as_deref(), self.force);
+        let work = || computed(question, memory, report, force);
+        let (answer, mut problems, guard) = threads::work(self.py, None, work)?;
+        let Some(mut answer) = answer else { return Err(refused(self.py, &problems)) };
+        let new = answer.files();
+        let mut taken = Diagnostics::new();
+        may_put(&new, &guard, &mut taken);
+        if taken.has_errors() {
+            return Err(refused(self.py, &taken));
+        }
+        let mut written = Vec::new();
+        let done = self.py.detach(|| {
+            if let Some(path) = report {
+                write_report(path, &answer, &mut problems)?;
+            }
+            new.into_iter().try_for_each(|file| write(file, &mut written, &mut problems))?;
+            Some(Box::new(answer) as Held)
+        });
+        let Some(answer) = done else { return Err(refused(self.py, &problems)) };
+        written.extend(self.report.iter().map(|path| path.display().to_string()));
+        Ok(NativeAnswer::new(answer, problems, written))
+    }
+}
+
+/// Reads, checks the outputs, computes.
+fn computed<Q: Question>(
+    question: &Q,
+    memory: &Contents,
+    report: Option<&Path>,
+    force: bool,
+) -> (Option<Q::Answer>, Diagnostics, Guard) {
+    let mut problems = Diagnostics::new();
+    let (disk, read) = noted_disk();
+    let files = match memory.is_empty() {
+        true => disk,
+        false => with_contents(memory.clone(), disk).0,
+    };
+    let input = question.read(&files, &mut problems);
+    let guard = Guard { read, force };
+    let report_file = report.map(|path| Output::file("--report", path));
+    let outputs: Vec<_> = question.outputs(input.as_ref()).into_iter().chain(report_file).collect();
+    outputs.iter().for_each(|output| guard.may_write(output, &mut problems));
+    let paths: Vec<&Path> = outputs.iter().map(|output| output.path.as_path()).collect();
+    no_file_twice(&paths, &mut problems);
+    let answer = match input.filter(|_| !problems.has_errors()) {
+        Some(input) => question.answer(input, &|_| {}, &mut problems),
+        None => None,
+    };
+    let answer = answer.filter(|answer| is_finite(answer, &mut problems));
+    let usable =
+        |answer: &Q::Answer| !problems.has_errors() || answer.in_spite_of_errors().is_some();
+    (answer.filter(usable), problems, guard)
+}
+
+fn write_report(path: &Path, answer: &impl Answer, problems: &mut Diagnostics) -> Option<()> {
+    let place = Place::whole(&path.display().to_string());
+    let page = match answer.page() {
+        Ok(page) => page,
+        Err(error) => {
+            problems.error("no-report", place, error.to_string(), "leave out `report`");
+            return None;
+        }
+    };
+    if let Err(error) = files::write_in_folder(path, page.as_bytes()) {
+        let message = format!("cannot be written: {error}");
+        let hint = "name another `report`, or leave it out";
+        problems.error("unwritable-file", place, message, hint);
+        return None;
+    }
+    Some(())
+}
+
+fn write(file: NewFile, written: &mut Vec<String>, problems: &mut Diagnostics) -> Option<()> {
+    let shown = file.path.display().to_string();
+    let code = match file.content {
+        Content::Folder(_) => "unwritable-folder",
+        _ => "unwritable-file",
+    };
+    if let Err(error) = file.write() {
+        let message = format!("cannot be written: {error}");
+        problems.error(code, Place::whole(&shown), message, "name another file or folder");
+        return None;
+    }
+    written.push(shown);
+    Some(())
+}
