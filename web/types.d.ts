@@ -760,6 +760,7 @@ export interface Documents {
   "live-status": LiveStatus;
   "measure-part": MeasurePart;
   measure: Measure;
+  new: New;
   part: Part;
   "plan-probe-surface": PlanProbeSurface;
   "plan-tool-setting": PlanToolSetting;
@@ -8621,6 +8622,34 @@ export interface MeasureChannelEntry {
    */
   largest_row: number;
   [k: string]: number;
+}
+/**
+ * A new folder.
+ */
+export interface New {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/new/1";
+  /**
+   * The folder.
+   */
+  folder: string;
+  /**
+   * The kind of machine.
+   */
+  kind: string;
+  /**
+   * The names of its files.
+   */
+  files: string[];
+  /**
+   * The commands to try there, in their order.
+   *
+   * @minItems 4
+   * @maxItems 4
+   */
+  commands: [string, string, string, string];
 }
 /**
  * A part file or a draft of one: `trueaxis/part/1`.
