@@ -1,10 +1,11 @@
 //! `trueaxis new`: a folder with a machine, a part, a program, a study and a campaign to begin with.
 
-use crate::output::{Answer, Format, Outcome, show, tell};
+use crate::output::{Answer, Format, Outcome, report, show, tell};
 use clap::{Args, ValueEnum};
-use std::fs::{File, create_dir_all};
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+use trueaxis::files::output::may_fill;
+use trueaxis::files::write_folder;
+use trueaxis::input::Diagnostics;
 use trueaxis_templates::{FIRST_COMMANDS, Kind, NewFolderDocument, texts};
 
 /// Which folder, and for which machine.
@@ -68,8 +69,15 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     let kind = arguments.kind.kind();
     let files = texts(kind, &name);
-    if let Err(why) = write_all(folder, files.iter().map(|file| (file.name, &*file.text))) {
-        tell(&format!("error[unwritable-output]: {shown}: {why}"));
+    let mut problems = Diagnostics::new();
+    may_fill(folder, &mut problems);
+    if report(problems) {
+        return Outcome::Unusable;
+    }
+    let texts: Vec<(String, String)> =
+        files.iter().map(|file| (file.name.to_owned(), file.text.clone())).collect();
+    if let Err(why) = write_folder(folder, &texts) {
+        tell(&format!("error[unwritable-folder]: {shown}: cannot be written: {why}"));
         return Outcome::Unusable;
     }
     let files: Vec<&str> = files.iter().map(|file| file.name).collect();
@@ -86,23 +94,4 @@ pub fn run(arguments: &Arguments) -> Outcome {
             FIRST_COMMANDS.join("\n  ")
         )),
     })
-}
-
-/// Writes files into a folder that is new or empty; nothing that is there is touched.
-fn write_all<'t>(
-    folder: &Path,
-    files: impl Iterator<Item = (&'t str, &'t str)>,
-) -> Result<(), String> {
-    create_dir_all(folder).map_err(|e| e.to_string())?;
-    let mut entries = folder.read_dir().map_err(|e| e.to_string())?;
-    if entries.next().is_some() {
-        return Err(
-            "the folder is not empty, nothing was written\n  hint: name a new folder".to_owned()
-        );
-    }
-    for (name, text) in files {
-        let mut file = File::create_new(folder.join(name)).map_err(|e| format!("{name}: {e}"))?;
-        file.write_all(text.as_bytes()).map_err(|e| format!("{name}: {e}"))?;
-    }
-    Ok(())
 }

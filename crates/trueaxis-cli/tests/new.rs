@@ -79,7 +79,7 @@ fn what_is_there_is_left_alone() {
     let file = temporary.file("notes.txt", "mine");
     let ran = trueaxis(&["new", &temporary.path("")]);
     assert_eq!(ran.status, 2);
-    assert!(ran.err.contains("the folder is not empty, nothing was written"), "{}", ran.err);
+    assert!(ran.err.contains("error[unwritable-folder]"), "{}", ran.err);
     assert_eq!(std::fs::read_to_string(&file).expect("the file"), "mine");
     assert!(!std::path::Path::new(&temporary.path("machine.toml")).exists());
     let ran = trueaxis(&["new", &temporary.path("m"), "--name", "a \"b\""]);
@@ -88,5 +88,5 @@ fn what_is_there_is_left_alone() {
     assert!(!std::path::Path::new(&temporary.path("m")).exists());
     let ran = trueaxis(&["new", &file]);
     assert_eq!(ran.status, 2);
-    assert!(ran.err.contains("error[unwritable-output]"), "{}", ran.err);
+    assert!(ran.err.contains("error[unwritable-folder]"), "{}", ran.err);
 }

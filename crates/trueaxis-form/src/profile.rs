@@ -125,10 +125,10 @@ mod tests {
         assert!((strip.width - 2.4).abs() < 1e-15 && strip.contacts[2] == 0);
     }
 
-    /// A wall of 90 mm that is flat to a tenth of a nanometre, its points doubled to rounding: no direction but that along it is narrow.
-    /// Every turn, shift and size of the wall must tell the same.
+    /// The rows of a wall that leans, seen along it: a lattice that is 90 mm long and thinner than a micrometre, sheared by rounding. No
+    /// direction but that along it is narrow, however it is turned, shifted and scaled.
     #[test]
-    fn law_a_wall_that_is_flat_to_rounding_is_narrow() {
+    fn law_the_rows_of_a_leaning_wall_are_narrow() {
         let mut state = 3_u64;
         let mut unit = || {
             state = state
@@ -136,23 +136,30 @@ mod tests {
                 .wrapping_add(1_442_695_040_888_963_407);
             (state >> 11) as f64 / (1_u64 << 53) as f64
         };
-        for round in 0..2000 {
-            let (size, turn) = (10_f64.powf(4.0 * unit() - 1.0), 7.0 * unit());
+        for round in 0..3000 {
+            let (size, turn) = (10_f64.powf(4.0 * unit() - 1.0), 1e-3 * (unit() - 0.5));
             let (sin, cos) = turn.sin_cos();
-            let (shift, rough) = (size * unit(), size * 10_f64.powf(-16.0 + 8.0 * unit()));
+            let (shear, lean) =
+                (10_f64.powf(-18.0 + 12.0 * unit()), 10_f64.powf(-17.0 + 11.0 * unit()));
             let mut points = Vec::new();
             for k in 0..41 {
-                for _ in 0..9 {
-                    let (along, across) = (size * f64::from(k) / 40.0, rough * unit());
-                    points.push([along * cos - across * sin + shift, along * sin + across * cos]);
+                for j in 0..9 {
+                    let row = size * f64::from(j) / 8.0;
+                    let (along, across) =
+                        (size * f64::from(k - 20) / 40.0 + shear * row, lean * row);
+                    points.push([along * cos - across * sin, along * sin + across * cos]);
                 }
             }
             let strip = narrowest(&points).unwrap();
             let [dx, dy] = strip.direction;
             let heights = points.iter().map(|p| dx * p[1] - dy * p[0]);
             let (low, high) = heights.fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(v), h.max(v)));
-            assert!(high - low < rough + 1e-14 * size, "{round}: {} for {rough}", high - low);
-            assert!((strip.width - (high - low)).abs() < 1e-14 * size + 1e-6 * rough, "{round}");
+            assert!(
+                high - low < 1.001 * lean * size + 1e-14 * size,
+                "{round}: {} for {}",
+                high - low,
+                lean * size
+            );
         }
     }
 
@@ -165,5 +172,28 @@ mod tests {
         };
         let (large, small) = (narrowest(&circle(5000)).unwrap(), narrowest(&circle(1000)).unwrap());
         assert!((large.width - 2.0).abs() < 1e-5 && (small.width - 2.0).abs() < 1e-4);
+    }
+
+    /// The hull of the side of a plate that leans by a micrometre on one machine of many: the farthest corner, followed from edge to
+    /// edge, was lost at the corner that three of them have to rounding, and the strip was 2 wide.
+    #[test]
+    fn a_corner_of_three_is_no_reason_to_lose_the_other_side() {
+        let points = [
+            [-1.0000000000000158e0, 5.440689544716315e-7],
+            [-9.999999767909158e-1, 1.3601723409266376e-7],
+            [-9.999999690545491e-1, -6.0336587990372905e-15],
+            [-9.999999613181825e-1, -1.3601724615998135e-7],
+            [-9.999999381090823e-1, -5.440689666183392e-7],
+            [-7.999999442981723e-1, -5.440689655068758e-7],
+            [2.000000247563766e-1, -5.440689597113878e-7],
+            [3.500000201145589e-1, -5.440689588380951e-7],
+            [9.500000015472881e-1, -5.440689553449243e-7],
+            [1.000000000000016e0, -5.440689550273632e-7],
+            [9.999999922636493e-1, -4.080517149010406e-7],
+            [9.999999381090824e-1, 5.440689660626075e-7],
+            [5.499999520345353e-1, 5.440689747161446e-7],
+        ];
+        let strip = narrowest(&points).unwrap();
+        assert!(strip.width < 1.1e-6 && strip.direction[0].abs() > 0.999_999, "{strip:?}");
     }
 }
