@@ -154,14 +154,10 @@ impl TipControl {
         axis: Direction<Workpiece>,
         from: &Command,
     ) -> Result<DirectionSolution, SolveError> {
-        let u = axis.vector();
-        let is_finite = u.iter().chain(from).all(|v| v.is_finite());
-        if let Some(two) = self.two_axes.as_ref().filter(|_| is_finite)
-            && let Some(branches) = two.branches(u)
-        {
-            return Ok(two.nearer(branches, from));
+        match self.decided(axis.vector(), from) {
+            Some((two, branches)) => Ok(two.nearer(branches, from)),
+            None => Ok(self.nearer(self.branches_by_scalar(axis.vector(), from)?, from)),
         }
-        Ok(self.nearer(self.branches_by_scalar(u, from)?, from))
     }
 
     /// The command goes to the nearest one for a direction whose branches may be known: two angles of one, two of the other.
@@ -212,16 +208,19 @@ impl TipControl {
         axis: Direction<Workpiece>,
         from: &Command,
     ) -> Result<(DirectionSolution, Option<DirectionSolution>), SolveError> {
-        let u = axis.vector();
+        let Some((two, branches)) = self.decided(axis.vector(), from) else {
+            return self.branches_by_scalar(axis.vector(), from);
+        };
+        let [one, other] =
+            branches.map(|angles| self.entry(two.aim.axes.into_iter().zip(angles), from));
+        Ok((one, Some(other)))
+    }
+
+    /// The angles of both branches where the closed form decides.
+    fn decided(&self, u: Vec3, from: &Command) -> Option<(&TwoAxes, [[f64; 2]; 2])> {
+        let two = self.two_axes.as_ref()?;
         let is_finite = u.iter().chain(from).all(|v| v.is_finite());
-        if let Some(two) = self.two_axes.as_ref().filter(|_| is_finite)
-            && let Some(branches) = two.branches(u)
-        {
-            let [one, other] =
-                branches.map(|angles| self.entry(two.aim.axes.into_iter().zip(angles), from));
-            return Ok((one, Some(other)));
-        }
-        self.branches_by_scalar(u, from)
+        Some((two, two.branches(u).filter(|_| is_finite)?))
     }
 
     /// The same at poles and where branches meet, too.
