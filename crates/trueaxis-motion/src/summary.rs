@@ -1,6 +1,6 @@
 //! The results of a run: time, path, extents and the worst deviations.
 
-use super::{Batch, Node, Observer};
+use super::{Batch, Node, Observer, STILL};
 use std::collections::BTreeMap;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
@@ -155,7 +155,8 @@ impl Turning {
         time_s: f64,
     ) {
         let ahead = (q - self.farthest) * self.direction;
-        if self.direction != 0.0 && ahead <= 0.0 && -ahead <= band {
+        // At rest the place is rounded otherwise at every node: the axis turns where it came to rest.
+        if self.direction != 0.0 && (-band..=STILL).contains(&ahead) {
             return;
         }
         if self.direction == 0.0 {
@@ -321,5 +322,40 @@ pub fn unit(machine: &Machine, axis: usize) -> &'static str {
     match machine.axes()[axis].kind {
         AxisKind::Linear => "mm",
         AxisKind::Rotary => "deg",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Where and when an axis turns on its way through places, a second apart.
+    fn turns(places: &[f64]) -> Vec<(f64, f64)> {
+        let mut turning = Turning::begin(places[0]);
+        let mut all = Vec::new();
+        for (k, q) in places.iter().enumerate() {
+            let found = |at: f64, _, time_s: f64| all.push((at, time_s));
+            turning.go(*q, 1e-3, found, Origin::default(), k as f64);
+        }
+        all
+    }
+
+    /// An axis comes to rest at 5, and its place is rounded upwards or downwards while it stands: it turns where it came to rest.
+    #[test]
+    fn law_rounding_at_rest_does_not_move_a_turn() {
+        for noise in [0.0, 1e-14, -1e-14, 1e-9] {
+            let places = [0.0, 2.0, 5.0, 5.0 + noise, 5.0 + 2.0 * noise, 3.0, 4.0];
+            assert_eq!(turns(&places), [(5.0, 2.0), (3.0, 5.0)], "{noise}");
+        }
+    }
+
+    /// An axis that creeps on below what counts as a motion is followed all the same.
+    #[test]
+    fn a_creeping_axis_is_followed() {
+        let mut places: Vec<f64> = (0..1000).map(|k| 1.0 + 4e-8 * f64::from(k)).collect();
+        places.insert(0, 0.0);
+        places.push(0.5);
+        let [(at, time_s)] = turns(&places)[..] else { panic!("one turn") };
+        assert!((at - places[1000]).abs() <= 1e-7 && time_s > 995.0, "{at} {time_s}");
     }
 }
