@@ -29,7 +29,10 @@ pub fn drawing_report<'a>(study: &'a PartStudy, prediction: &'a PartPrediction) 
     };
     let report = Report::new(&study.name)
         .line(format!("{}, {}", study.job.machine.name(), study.job.machine.chain_text()))
-        .line(format!("{}, {}", study.part.name, study.part.source))
+        .line(match study.part.source.is_empty() {
+            true => study.part.name.clone(),
+            false => format!("{}, {}", study.part.name, study.part.source),
+        })
         .line(format!("{}, {} steps of tools", study.job.program.file(), prediction.steps))
         .verdict(standing, title, sentence)
         .section(characteristics(study, prediction));
@@ -175,7 +178,8 @@ fn characteristics<'a>(study: &PartStudy, prediction: &PartPrediction) -> Sectio
         count => format!(" {count} errors of it state none and add nothing to u."),
     };
     let note = format!(
-        "u: standard uncertainty by those of the machine file.{unknown} Points: by how much the value changes with half \
+        "u: standard uncertainty by those of the machine file; where a value is at its least, the root mean square over drawn \
+         machines.{unknown} Points: by how much the value changes with half \
          of the points; a smaller `spacing` makes it smaller. Both count in a verdict by ISO 14253-1. Program alone: what this \
          program leaves on a machine without errors."
     );
