@@ -821,6 +821,7 @@ export interface Documents {
   simulate: Simulate;
   "solve-path": SolvePath;
   solve: Solve;
+  study: Study;
   trace: Trace;
   "verify-part": VerifyPart;
   verify: Verify;
@@ -13687,6 +13688,328 @@ export interface SolutionEntry {
    * How far the rotary axes turn to get there, degrees.
    */
   rotary_travel_deg: number;
+}
+/**
+ * Many machines on many days: `trueaxis/study/1`.
+ */
+export interface Study {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/study/1";
+  /**
+   * The name of the study.
+   */
+  name: string;
+  /**
+   * Which samples there are.
+   */
+  design: DesignEntry;
+  /**
+   * What is varied.
+   */
+  inputs: InputEntry[];
+  /**
+   * What every machine makes.
+   */
+  cases: CaseEntry[];
+  /**
+   * What is asked of the machines; null if nothing is.
+   */
+  requirement: RequirementEntry | null;
+  /**
+   * `pass`, `fail` or `undecided`: whether it is met, at one combination if there are several; null if nothing is asked.
+   */
+  outcome: string | null;
+  /**
+   * The combinations of levels of a factorial design; else one.
+   */
+  combinations: StudyCombinationEntry[];
+  /**
+   * What makes the variance of each output; empty without a sensitivity analysis.
+   */
+  sensitivities: StudySensitivityEntry[];
+}
+/**
+ * Which samples there are.
+ */
+export interface DesignEntry {
+  /**
+   * `monte-carlo`, `latin-hypercube`, `sobol` or `factorial`.
+   */
+  kind: string;
+  /**
+   * Machines, of each combination.
+   */
+  machines: number;
+  /**
+   * Days of each machine.
+   */
+  days: number;
+  /**
+   * The random seed.
+   */
+  seed: number;
+  /**
+   * Combinations of levels.
+   */
+  combinations: number;
+  /**
+   * Rows of the sensitivity analysis.
+   */
+  sensitivity_rows: number;
+  /**
+   * All samples.
+   */
+  samples: number;
+}
+/**
+ * One input.
+ */
+export interface InputEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * The inputs whose effect is found together.
+   */
+  group: string;
+  /**
+   * `machine`, `day` or `hall`: how often it is drawn.
+   */
+  per: string;
+  /**
+   * `normal`, `uniform`, `triangular`, `arcsine` or `values`.
+   */
+  distribution: string;
+  /**
+   * The unit of mean and u: mm, rad, degC, s or 1.
+   */
+  unit: string;
+  /**
+   * Its mean. Unit: that of `unit`.
+   */
+  mean: number;
+  /**
+   * Its standard deviation. Unit: that of `unit`.
+   */
+  u: number;
+}
+/**
+ * What every machine makes.
+ */
+export interface CaseEntry {
+  /**
+   * Its name in the study.
+   */
+  name: string;
+  /**
+   * Its study file.
+   */
+  study: string;
+  /**
+   * The machine.
+   */
+  machine: string;
+}
+/**
+ * What is asked of the machines.
+ */
+export interface RequirementEntry {
+  /**
+   * The share of machines that hold their tolerances. Unit: 1.
+   */
+  machines_ratio: number;
+  /**
+   * On this share of days. Unit: 1.
+   */
+  days_ratio: number;
+}
+/**
+ * One combination of levels.
+ */
+export interface StudyCombinationEntry {
+  /**
+   * The value of each factorial input.
+   */
+  levels: LevelEntry[];
+  /**
+   * The outputs, case after case.
+   */
+  outputs: OutputEntry[];
+  /**
+   * Machines and parts that hold all tolerances of each case; null for a case without any.
+   */
+  cases: (GoodEntry | null)[];
+  /**
+   * Those that hold all of them; null if there are none.
+   */
+  good: GoodEntry | null;
+  /**
+   * `pass`, `fail` or `undecided`; null if nothing is asked.
+   */
+  outcome: string | null;
+}
+/**
+ * The value of a factorial input.
+ */
+export interface LevelEntry {
+  /**
+   * The input.
+   */
+  input: string;
+  /**
+   * Its unit: mm, rad, degC, s or 1.
+   */
+  unit: string;
+  /**
+   * Its value. Unit: that of `unit`.
+   */
+  value: number;
+}
+/**
+ * The spread of one output.
+ */
+export interface OutputEntry {
+  /**
+   * Its case.
+   */
+  case: string;
+  /**
+   * Its key.
+   */
+  key: string;
+  /**
+   * The least value allowed; null without one, mm.
+   */
+  low_limit_mm: number | null;
+  /**
+   * The largest value allowed; null without one, mm.
+   */
+  high_limit_mm: number | null;
+  /**
+   * Mean of all machines and days, mm.
+   */
+  mean_mm: number;
+  /**
+   * Standard deviation, mm.
+   */
+  u_mm: number;
+  /**
+   * 2.5 % quantile, mm.
+   */
+  low_mm: number;
+  /**
+   * 97.5 % quantile, mm.
+   */
+  high_mm: number;
+  /**
+   * The smallest value, mm.
+   */
+  least_mm: number;
+  /**
+   * The largest value, mm.
+   */
+  largest_mm: number;
+  /**
+   * The share of parts on which it is in tolerance; null without a limit. Unit: 1.
+   */
+  good_ratio: number | null;
+  /**
+   * Standard deviation from machine to machine; null for one machine or one day, mm.
+   */
+  machines_u_mm: number | null;
+  /**
+   * From day to day, the same for all machines; null for one machine or one day, mm.
+   */
+  days_u_mm: number | null;
+  /**
+   * Of a machine on a day alone; null for one machine or one day, mm.
+   */
+  rest_u_mm: number | null;
+  /**
+   * Where the first cell of the histogram begins, mm.
+   */
+  histogram_from_mm: number;
+  /**
+   * The width of its cells, mm.
+   */
+  histogram_width_mm: number;
+  /**
+   * How many values each cell has.
+   */
+  histogram: number[];
+}
+/**
+ * Machines and parts that hold their tolerances.
+ */
+export interface GoodEntry {
+  /**
+   * The share of parts. Unit: 1.
+   */
+  parts_ratio: number;
+  /**
+   * Its standard uncertainty. Unit: 1.
+   */
+  u_parts_ratio: number;
+  /**
+   * How many machines.
+   */
+  machines: number;
+  /**
+   * The share of machines. Unit: 1.
+   */
+  machines_ratio: number;
+  /**
+   * The ends of its interval of 95 %. Unit: 1.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  machines_interval_ratio: [number, number];
+}
+/**
+ * What makes the variance of one output.
+ */
+export interface StudySensitivityEntry {
+  /**
+   * Its case.
+   */
+  case: string;
+  /**
+   * Its key.
+   */
+  key: string;
+  /**
+   * The groups of inputs; null if the output does not vary.
+   */
+  groups: GroupEntry[] | null;
+}
+/**
+ * The indices of Sobol' of one group.
+ */
+export interface GroupEntry {
+  /**
+   * The group.
+   */
+  group: string;
+  /**
+   * First index: of the group alone. Unit: 1.
+   */
+  first_ratio: number;
+  /**
+   * Its standard uncertainty. Unit: 1.
+   */
+  u_first_ratio: number;
+  /**
+   * Total index: with all interactions. Unit: 1.
+   */
+  total_ratio: number;
+  /**
+   * Its standard uncertainty. Unit: 1.
+   */
+  u_total_ratio: number;
 }
 /**
  * One block of a program through every stage of the simulation.

@@ -16,7 +16,7 @@ PLACE = HERE / "python/trueaxis/documents.py"
 NAMES = """before-after certificate compensate compensate-adapt compensate-program compensate-tables diff evaluate
 evaluate-form history identify-errors identify-expansion identify-expansions identify-probe identify-probe-programs identify-rtcp
 identify-rtcp-programs identify-surface identify-tables identify-thermal identify-tools measure measure-part part plan
-plan-probe-surface plan-tool-setting pose pose-rows post predict predict-holes predict-part simulate solve solve-path trace
+plan-probe-surface plan-tool-setting pose pose-rows post predict predict-holes predict-part simulate solve solve-path study trace
 verify verify-part""".split()
 
 HEAD = '''"""The documents of answers as types: what `Answer.document` is.

@@ -26,6 +26,7 @@ mod schema;
 mod serve;
 mod simulate;
 mod solve;
+mod study;
 mod trace;
 mod verify;
 
@@ -48,6 +49,7 @@ Examples:
   trueaxis predict examples/03_predict/nas979-on-xkas2525.toml
   trueaxis evaluate iso230-2 examples/07_verify/x-axis-laser.csv --report x.html
   trueaxis compensate values machines/three-axis-mill/machine.toml --axis X --step 50
+  trueaxis study examples/09_study/fleet.toml
   trueaxis measure examples/04_plan/probe-ball.toml
   trueaxis verify examples/07_verify/probe-ball.toml
   trueaxis plan examples/04_plan/probe-ball.toml
@@ -95,6 +97,8 @@ enum Verb {
     Identify(identify::Arguments),
     /// Predict: is the test piece within tolerance, and what does each error contribute
     Predict(predict::Arguments),
+    /// Predict, for a fleet: how many machines hold the part on how many days, and which tolerance matters
+    Study(study::Arguments),
     /// Compensate: the values, programs and tables that correct the errors
     Compensate(compensate::Arguments),
     /// Compensate: cutter locations to the NC program of one control, verified by simulation
@@ -145,6 +149,7 @@ fn main() -> ExitCode {
         Verb::Plan(arguments) => plan::run(&arguments),
         Verb::Identify(arguments) => identify::run(&arguments),
         Verb::Predict(arguments) => predict::run(&arguments),
+        Verb::Study(arguments) => study::run(&arguments),
         Verb::Compensate(arguments) => compensate::run(arguments),
         Verb::Post(arguments) => post::run(arguments),
         Verb::Live(arguments) => live::run(&arguments),

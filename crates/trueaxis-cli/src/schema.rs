@@ -25,10 +25,11 @@ pub struct Arguments {
     format: Format,
 }
 
-/// Those of the library, of live runs and of new folders, by name.
+/// Those of the library, of live runs, of studies of many machines and of new folders, by name.
 fn schemas() -> Vec<(&'static str, Schema)> {
     let mut all = trueaxis::schemas();
     all.extend(trueaxis_live::schemas());
+    all.extend(trueaxis_study::schemas());
     all.extend(trueaxis_templates::schemas());
     all.sort_by_key(|(name, _)| *name);
     all

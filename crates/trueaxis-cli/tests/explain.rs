@@ -9,7 +9,7 @@ use std::fs;
 use std::path::Path;
 
 /// Words of the sources that look like codes: names of shapes, files, HTTP headers, choices.
-const OTHER_WORDS: &str = "opc-ua sign-and-encrypt part-lost program-line datum-asked datum-cleared datum-refused ask-hold ramp-down ta-heartbeat tool-length points-on-circle points-on-cylinder points-on-line points-on-plane points-on-sphere ball-centre chi-square gross-readings ball-bar cyclic-error iso14253-1 lateral-play reversal-spike scale-mismatch servo-mismatch target-count cache-control content-security-policy content-type \
+const OTHER_WORDS: &str = "monte-carlo latin-hypercube opc-ua sign-and-encrypt part-lost program-line datum-asked datum-cleared datum-refused ask-hold ramp-down ta-heartbeat tool-length points-on-circle points-on-cylinder points-on-line points-on-plane points-on-sphere ball-centre chi-square gross-readings ball-bar cyclic-error iso14253-1 lateral-play reversal-spike scale-mismatch servo-mismatch target-count cache-control content-security-policy content-type \
     counter-clockwise cross-origin-opener-policy cross-origin-resource-policy cut-piece ecmc-md \
     follows-xyz four-hits four-hits-corrected gbt17421-2 head-head iso230-1 iso230-10 iso230-2 iso230-3 iso230-4 iso230-6 iso230-7 laser-angle \
     laser-line least-squares length-tracker linuxcnc-trims no-referrer no-store not-a-knot on-axis on-cone \

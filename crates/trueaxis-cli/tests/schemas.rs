@@ -116,6 +116,8 @@ const ANSWERS: &[(&str, &str)] = &[
         "plan-tool-setting",
         "plan tool-setting machines/i5-engraver/machine.toml examples/04_plan/tool-setting.setup.toml",
     ),
+    ("study", "study examples/09_study/fleet.toml --machines 20 --days 3"),
+    ("study", "study examples/09_study/guideways.toml --machines 2"),
     ("pose", "pose machines/xkas2525/machine.toml --at X=3000"),
     (
         "pose-rows",

@@ -17,7 +17,7 @@ pub(crate) use rule::Step;
 use crate::axis::{Approach, Axis, AxisKind, Command};
 use crate::errors::{
     BodyErrors, BodyName, Component, Curve, ErrorIndex, ErrorKind, ErrorName, ErrorValues,
-    JointErrors, OutsideTable, Rotation, SixErrors, StatedError, Uncertainties,
+    Influence, JointErrors, OutsideTable, Rotation, SixErrors, StatedError, Uncertainties,
 };
 use crate::heat::{HeatModel, ThermalTerm, WorkpieceGrowth};
 use std::sync::Arc;
@@ -126,6 +126,8 @@ pub struct Machine {
     pub(crate) equipment: crate::equipment::Equipment,
     /// Errors with a covariance; their own uncertainties do not count.
     pub(crate) joint: Option<Arc<JointErrors>>,
+    /// Quantities of a study.
+    pub(crate) influences: Arc<[Influence]>,
 }
 
 /// α_w among the uncertain quantities.
@@ -277,6 +279,13 @@ impl Machine {
         self
     }
 
+    /// The same machine with quantities of a study: they stand after its own among those of
+    /// [`Machine::uncertain_quantities`].
+    pub fn with_influences(mut self, influences: Vec<Influence>) -> Self {
+        self.influences = influences.into();
+        self
+    }
+
     /// Errors that are known better together than each alone: their own uncertainties do not count.
     pub fn joint(&self) -> Option<&JointErrors> {
         self.joint.as_deref()
@@ -371,7 +380,7 @@ impl Machine {
 
     /// Every independent quantity that has, or could have, an uncertainty: the stated errors in
     /// chain order, then the combinations of those with a covariance, then the coefficients of the thermal
-    /// parts, then the expansion of the workpiece.
+    /// parts, then the expansion of the workpiece, then what a study adds.
     pub fn uncertain_quantities(&self) -> Vec<String> {
         let stated = self.stated_errors().into_iter().map(|(_, name)| name.to_string());
         let mut all: Vec<String> = stated.collect();
@@ -384,6 +393,7 @@ impl Machine {
         if self.growth.as_ref().is_some_and(|g| g.expansion_per_k.u.is_some()) {
             all.push(WORKPIECE_EXPANSION.to_owned());
         }
+        all.extend(self.influences.iter().map(|influence| influence.name.clone()));
         all
     }
 
@@ -432,6 +442,10 @@ impl Machine {
         let expansion = quantities.iter().position(|q| q == WORKPIECE_EXPANSION);
         if let (Some(growth), Some(quantity)) = (&self.growth, expansion) {
             found.add_workpiece(quantity, growth.u_at(self.nominal_tip_mm(command)));
+        }
+        let first = quantities.len().saturating_sub(self.influences.len());
+        for (i, influence) in self.influences.iter().enumerate() {
+            influence.add_to(&mut found, first + i, |index| at(index.body));
         }
         found
     }

@@ -1,6 +1,7 @@
 //! The errors of a machine: their names, their curves, their values at a position.
 
 mod curve;
+mod influence;
 mod joint;
 mod name;
 mod slope;
@@ -10,6 +11,7 @@ mod uncertain;
 mod values;
 
 pub use curve::{Curve, Extrapolation, Harmonic, OutsideTable};
+pub use influence::Influence;
 pub use joint::{JointErrors, JointFunction};
 pub use name::{BodyName, Component, ErrorKind, ErrorName};
 pub use spline::{Interpolation, Spline, SplineError};

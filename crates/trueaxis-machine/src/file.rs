@@ -169,6 +169,7 @@ fn read_machine(root: &Section<'_>, tables: &dyn Tables) -> Option<Machine> {
         active,
         equipment: equipment_text::read_equipment(root),
         joint: None,
+        influences: Default::default(),
     };
     let joint = root.section("uncertainty", |s| joint_text::read_joint(s, &machine, tables));
     let machine = match joint.flatten() {

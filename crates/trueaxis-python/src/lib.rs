@@ -11,6 +11,7 @@ mod options;
 mod poses;
 mod problems;
 mod solve;
+mod study;
 mod threads;
 mod verbs;
 
@@ -31,6 +32,8 @@ mod _native {
     use super::poses::{deviations, errors_at};
     #[pymodule_export]
     use super::solve::{follow, solve};
+    #[pymodule_export]
+    use super::study::NativeStudy;
 
     /// The version of TrueAxis.
     #[pymodule_export]

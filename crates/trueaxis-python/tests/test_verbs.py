@@ -32,6 +32,12 @@ ASKED = [
         {"samples": 20, "seed": 3},
         ["predict", "examples/03_predict/nas979-on-xkas2525.toml", "--samples", "20", "--seed", "3"],
     ),
+    (
+        "study",
+        ("examples/09_study/fleet.toml",),
+        {"machines": 10, "days": 3, "seed": 4},
+        ["study", "examples/09_study/fleet.toml", "--machines", "10", "--days", "3", "--seed", "4"],
+    ),
     ("measure", ("examples/04_plan/probe-ball.toml",), {"seed": 2}, ["measure", "examples/04_plan/probe-ball.toml", "--seed", "2"]),
     ("plan", ("examples/04_plan/probe-ball.toml",), {"control": "fanuc"}, ["plan", "examples/04_plan/probe-ball.toml", "--control", "fanuc"]),
     ("identify", ("examples/05_identify/probe-ball.toml",), {}, ["identify", "examples/05_identify/probe-ball.toml"]),

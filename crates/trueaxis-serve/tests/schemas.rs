@@ -11,7 +11,8 @@ const WRITE: &str = "TRUEAXIS_WRITE_SCHEMAS";
 fn the_schemas_in_docs_are_those_of_the_types() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/schemas");
     let all = trueaxis::schemas().into_iter().chain(trueaxis_serve::schemas());
-    let all = all.chain(trueaxis_live::schemas()).chain(trueaxis_templates::schemas());
+    let all = all.chain(trueaxis_live::schemas()).chain(trueaxis_study::schemas());
+    let all = all.chain(trueaxis_templates::schemas());
     let mut due = BTreeMap::new();
     for (name, schema) in all {
         let text = serde_json::to_string_pretty(&schema).expect("a schema") + "\n";

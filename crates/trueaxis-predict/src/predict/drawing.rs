@@ -11,6 +11,7 @@
 
 mod budget;
 mod compensated;
+mod linear;
 mod many;
 mod measured;
 mod path;
@@ -22,6 +23,7 @@ pub use compensated::{
     Compensated, CompensatedPart, DeviationSource, Deviations, predict_compensated,
     predict_with_deviations,
 };
+pub use linear::LinearPart;
 pub use many::{Drawn, ManyParts, cut_with};
 pub use measured::{Measured, Measurement};
 pub use path::{CutPath, Origin};
@@ -131,27 +133,10 @@ pub fn predict_part(
 ) -> Option<PartPrediction> {
     let zero = study.zero(problems)?;
     let mut path = CutPath::new(&study.job, &zero);
-    let Findings { run, .. } = study.job.run(None, &mut [&mut path as &mut dyn Observer]);
-    let place = Place::whole(&study.path.display().to_string());
-    let left_out = run.motion_left_out().count();
-    let has_errors = run.problems.has_errors();
-    problems.append(run.problems);
-    if left_out > 0 && !has_errors {
-        let message =
-            format!("the program moves the tool by {left_out} functions that are not executed");
-        let hint = "the surfaces would be others; the warnings name them";
-        problems.error("motion-left-out", place.clone(), message, hint);
-    }
-    if has_errors || left_out > 0 {
-        return None;
-    }
-    let (actual, nominal) = sweeps(&path, place.clone(), problems)?;
-    let (part, known) = programmed::completed(study, &nominal, problems)?;
+    let CutOnce { part, actual: found, by_program, programs } =
+        cut_once(study, &mut path, problems)?;
     let nails = nails(&part);
-    let actual = cut(&actual, &nails);
-    let nominal = nominal_cut(&part, &nominal, known);
-    let found = reached(study, &part, &actual, problems)?;
-    let by_program = reached(study, &part, &nominal, problems)?;
+    let place = Place::whole(&study.path.display().to_string());
     let by_program: Vec<f64> = by_program.iter().map(|c| c.deviation_mm).collect();
     let deviations: Vec<f64> = found.iter().map(|c| c.deviation_mm).collect();
     let made = (&nails[..], &found[..]);
@@ -193,11 +178,48 @@ pub fn predict_part(
         drawn,
         compensated: None,
         part,
-        programs: run.programs,
+        programs,
         outcome,
         steps: path.steps(),
         errors_without_u: errors_without_u(&study.mounted),
     })
+}
+
+/// A part after its program.
+struct CutOnce {
+    part: part::Part,
+    actual: Vec<Cut>,
+    by_program: Vec<Cut>,
+    programs: Vec<String>,
+}
+
+/// Runs the program, and cuts the part on the actual machine and on one without errors.
+fn cut_once(
+    study: &PartStudy,
+    path: &mut CutPath<'_>,
+    problems: &mut Diagnostics,
+) -> Option<CutOnce> {
+    let Findings { run, .. } = study.job.run(None, &mut [path as &mut dyn Observer]);
+    let place = Place::whole(&study.path.display().to_string());
+    let left_out = run.motion_left_out().count();
+    let has_errors = run.problems.has_errors();
+    problems.append(run.problems);
+    if left_out > 0 && !has_errors {
+        let message =
+            format!("the program moves the tool by {left_out} functions that are not executed");
+        let hint = "the surfaces would be others; the warnings name them";
+        problems.error("motion-left-out", place.clone(), message, hint);
+    }
+    if has_errors || left_out > 0 {
+        return None;
+    }
+    let (actual, nominal) = sweeps(path, place, problems)?;
+    let (part, known) = programmed::completed(study, &nominal, problems)?;
+    let actual = cut(&actual, &nails(&part));
+    let nominal = nominal_cut(&part, &nominal, known);
+    let actual = reached(study, &part, &actual, problems)?;
+    let by_program = reached(study, &part, &nominal, problems)?;
+    Some(CutOnce { part, actual, by_program, programs: run.programs })
 }
 
 /// What actual and nominal tools pass through.

@@ -3,6 +3,10 @@
 //! Zhang et al. 2019: compensating the machine alone can make the part worse, since the growth of the
 //! machine and that of the workpiece no longer cancel.
 
+mod drawn;
+
+pub use drawn::{CommandedHoles, HolesOfMachine};
+
 use super::Error;
 use super::acted::{ActedRecord, ActedRow, SAME_PLACE_MM, machine_then, moved};
 use super::location::LocationCircle;

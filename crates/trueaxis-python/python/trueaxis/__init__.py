@@ -56,6 +56,7 @@ from ._measurement import (
 from ._machine import Machine
 from ._poses import Deviations, Errors, Poses, Solutions
 from ._problems import Diagnostic, Place, TrueAxisError, TrueAxisNote, TrueAxisWarning
+from ._study import Study, study
 
 if TYPE_CHECKING:
     from . import documents
@@ -111,6 +112,7 @@ __all__ = [
     "Poses",
     "Record",
     "Solutions",
+    "Study",
     "TrueAxisError",
     "TrueAxisNote",
     "TrueAxisWarning",
@@ -141,6 +143,7 @@ __all__ = [
     "predict",
     "simulate",
     "solve",
+    "study",
     "trace",
     "verify",
 ]

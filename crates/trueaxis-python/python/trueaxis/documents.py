@@ -4075,6 +4075,172 @@ class SolvePathDocument(Record):
         axes: Mapping[str, float]
 
 
+class StudyDocument(Record):
+    """Many machines on many days: `trueaxis/study/1`."""
+    #: Which document this is.
+    schema: Literal["trueaxis/study/1"]
+    #: The name of the study.
+    name: str
+    #: Which samples there are.
+    design: StudyDocument.DesignEntry
+    #: What is varied.
+    inputs: List[StudyDocument.InputEntry]
+    #: What every machine makes.
+    cases: List[StudyDocument.CaseEntry]
+    #: What is asked of the machines; null if nothing is.
+    requirement: Optional[StudyDocument.RequirementEntry]
+    #: `pass`, `fail` or `undecided`: whether it is met, at one combination if there are several; null if nothing is asked.
+    outcome: Optional[str]
+    #: The combinations of levels of a factorial design; else one.
+    combinations: List[StudyDocument.CombinationEntry]
+    #: What makes the variance of each output; empty without a sensitivity analysis.
+    sensitivities: List[StudyDocument.SensitivityEntry]
+
+    class DesignEntry(Record):
+        """Which samples there are."""
+        #: `monte-carlo`, `latin-hypercube`, `sobol` or `factorial`.
+        kind: str
+        #: Machines, of each combination.
+        machines: int
+        #: Days of each machine.
+        days: int
+        #: The random seed.
+        seed: int
+        #: Combinations of levels.
+        combinations: int
+        #: Rows of the sensitivity analysis.
+        sensitivity_rows: int
+        #: All samples.
+        samples: int
+
+    class InputEntry(Record):
+        """One input."""
+        #: Its name.
+        name: str
+        #: The inputs whose effect is found together.
+        group: str
+        #: `machine`, `day` or `hall`: how often it is drawn.
+        per: str
+        #: `normal`, `uniform`, `triangular`, `arcsine` or `values`.
+        distribution: str
+        #: The unit of mean and u: mm, rad, degC, s or 1.
+        unit: str
+        #: Its mean. Unit: that of `unit`.
+        mean: float
+        #: Its standard deviation. Unit: that of `unit`.
+        u: float
+
+    class CaseEntry(Record):
+        """What every machine makes."""
+        #: Its name in the study.
+        name: str
+        #: Its study file.
+        study: str
+        #: The machine.
+        machine: str
+
+    class RequirementEntry(Record):
+        """What is asked of the machines."""
+        #: The share of machines that hold their tolerances. Unit: 1.
+        machines_ratio: float
+        #: On this share of days. Unit: 1.
+        days_ratio: float
+
+    class CombinationEntry(Record):
+        """One combination of levels."""
+        #: The value of each factorial input.
+        levels: List[StudyDocument.LevelEntry]
+        #: The outputs, case after case.
+        outputs: List[StudyDocument.OutputEntry]
+        #: Machines and parts that hold all tolerances of each case; null for a case without any.
+        cases: List[Optional[StudyDocument.GoodEntry]]
+        #: Those that hold all of them; null if there are none.
+        good: Optional[StudyDocument.GoodEntry]
+        #: `pass`, `fail` or `undecided`; null if nothing is asked.
+        outcome: Optional[str]
+
+    class LevelEntry(Record):
+        """The value of a factorial input."""
+        #: The input.
+        input: str
+        #: Its unit: mm, rad, degC, s or 1.
+        unit: str
+        #: Its value. Unit: that of `unit`.
+        value: float
+
+    class OutputEntry(Record):
+        """The spread of one output."""
+        #: Its case.
+        case: str
+        #: Its key.
+        key: str
+        #: The least value allowed; null without one, mm.
+        low_limit_mm: Optional[float]
+        #: The largest value allowed; null without one, mm.
+        high_limit_mm: Optional[float]
+        #: Mean of all machines and days, mm.
+        mean_mm: float
+        #: Standard deviation, mm.
+        u_mm: float
+        #: 2.5 % quantile, mm.
+        low_mm: float
+        #: 97.5 % quantile, mm.
+        high_mm: float
+        #: The smallest value, mm.
+        least_mm: float
+        #: The largest value, mm.
+        largest_mm: float
+        #: The share of parts on which it is in tolerance; null without a limit. Unit: 1.
+        good_ratio: Optional[float]
+        #: Standard deviation from machine to machine; null for one machine or one day, mm.
+        machines_u_mm: Optional[float]
+        #: From day to day, the same for all machines; null for one machine or one day, mm.
+        days_u_mm: Optional[float]
+        #: Of a machine on a day alone; null for one machine or one day, mm.
+        rest_u_mm: Optional[float]
+        #: Where the first cell of the histogram begins, mm.
+        histogram_from_mm: float
+        #: The width of its cells, mm.
+        histogram_width_mm: float
+        #: How many values each cell has.
+        histogram: List[int]
+
+    class GoodEntry(Record):
+        """Machines and parts that hold their tolerances."""
+        #: The share of parts. Unit: 1.
+        parts_ratio: float
+        #: Its standard uncertainty. Unit: 1.
+        u_parts_ratio: float
+        #: How many machines.
+        machines: int
+        #: The share of machines. Unit: 1.
+        machines_ratio: float
+        #: The ends of its interval of 95 %. Unit: 1.
+        machines_interval_ratio: List[float]
+
+    class SensitivityEntry(Record):
+        """What makes the variance of one output."""
+        #: Its case.
+        case: str
+        #: Its key.
+        key: str
+        #: The groups of inputs; null if the output does not vary.
+        groups: Optional[List[StudyDocument.GroupEntry]]
+
+    class GroupEntry(Record):
+        """The indices of Sobol' of one group."""
+        #: The group.
+        group: str
+        #: First index: of the group alone. Unit: 1.
+        first_ratio: float
+        #: Its standard uncertainty. Unit: 1.
+        u_first_ratio: float
+        #: Total index: with all interactions. Unit: 1.
+        total_ratio: float
+        #: Its standard uncertainty. Unit: 1.
+        u_total_ratio: float
+
+
 class TraceDocument(Record):
     """One block of a program through every stage of the simulation."""
     #: Which document this is.

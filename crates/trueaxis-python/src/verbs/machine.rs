@@ -20,6 +20,7 @@ pub fn ask(verb: &str, o: &Options<'_, '_>, door: &Door<'_>) -> PyResult<Option<
             door.ask(&TraceBlock { machine: o.machine()?, program: program(o)?, block })?
         }
         "predict" => door.ask(&predict(o)?)?,
+        "study" => door.ask(&crate::study::question(o)?)?,
         _ => return Ok(None),
     }))
 }

@@ -62,11 +62,11 @@ struct Cuts<'a> {
 }
 
 /// By how much each point shifts along its normal, mm.
-struct Shifts {
+pub(super) struct Shifts {
     /// Without each error.
     absent: Vec<Vec<f64>>,
     /// From one standard uncertainty of each quantity below its value to one above.
-    uncertain: Vec<Vec<f64>>,
+    pub uncertain: Vec<Vec<f64>>,
 }
 
 /// Places of one task of a thread.
@@ -119,6 +119,21 @@ impl Cuts<'_> {
     }
 }
 
+/// The shifts of the points of a study, as its program cut them.
+pub(super) fn shifts(
+    study: &PartStudy,
+    path: &CutPath<'_>,
+    (nails, cuts): (&[Nail], &[Cut]),
+) -> Result<Shifts, String> {
+    let machines = path.machines(&study.mounted);
+    let place = |(nail, cut)| place(path, &machines, nail, cut);
+    let places = nails.iter().zip(cuts).map(place).collect::<Result<_, String>>()?;
+    let zero = study.setting.map(|command| (&study.mounted, command));
+    let (stated, quantities) =
+        (study.mounted.stated_errors(), study.mounted.uncertain_quantities());
+    Cuts { places, zero, stated: &stated, quantities: &quantities }.shifts()
+}
+
 pub(super) fn values(
     (study, part): (&PartStudy, &part::Part),
     path: &CutPath<'_>,
@@ -126,14 +141,8 @@ pub(super) fn values(
     (deviations, by_program): (&[f64], &[f64]),
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Judged, String> {
-    let machines = path.machines(&study.mounted);
-    let place = |(nail, cut)| place(path, &machines, nail, cut);
-    let places = nails.iter().zip(cuts).map(place).collect::<Result<_, String>>()?;
-    let zero = study.setting.map(|command| (&study.mounted, command));
-    let (stated, quantities) =
-        (study.mounted.stated_errors(), study.mounted.uncertain_quantities());
-    let all = Cuts { places, zero, stated: &stated, quantities: &quantities };
-    let Shifts { absent, uncertain: shifts } = all.shifts()?;
+    let stated = study.mounted.stated_errors();
+    let Shifts { absent, uncertain: shifts } = shifts(study, path, (nails, cuts))?;
     let evaluate = |deviation_mm: &[f64]| part.evaluate(deviation_mm).map_err(|e| e.to_string());
     let actual = evaluate(deviations)?;
     let nominal = evaluate(by_program)?;
