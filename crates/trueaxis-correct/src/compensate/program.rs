@@ -140,6 +140,8 @@ pub struct Rewritten {
     pub unproved: Diagnostics,
     /// The first line that each line became.
     numbers: Vec<u32>,
+    /// The program adds a radius that is not 0 to its contour.
+    radius_added: bool,
 }
 
 /// Places are examined so finely; each further try halves it.
@@ -296,7 +298,7 @@ fn on_contour(
     options: &ProgramOptions,
 ) -> OnContour {
     let (mut done, mut problems) = tried(machine, program, &setup.on_contour(), options);
-    let Some(rewritten) = done.as_mut().filter(|_| radius::is_used(machine, program, setup)) else {
+    let Some(rewritten) = done.as_mut().filter(|done| done.radius_added) else {
         return OnContour::Done(Box::new(done), problems);
     };
     let written = Program::new(program.file(), rewritten.text.clone(), program.dialect().control);
@@ -426,16 +428,23 @@ fn once(
     let conventions = worst
         .map_or(Vec::new(), |(_, nominal, command)| guard::conventions(tooled, &nominal, &command));
     let control = program.dialect().control;
-    let (text, numbers) = walk.text.finish(&guard::comment(&options.mark, control));
-    let found = walk.found;
+    let (text, numbers) = walk.text.finish();
+    let (found, radius_added) = (walk.found, walk.radius_added);
     let written = Program::new(program.file(), text, control);
     // The middle of every block at least is examined.
     let finer = densify(options, attempt + 1, 2 * least);
     let by = (finer, options.limits_between());
     let proof = verify::prove(machine, [program, &written], setup, &found, &numbers, by);
-    let text = written.source().to_vec();
-    let unproved = Diagnostics::new();
-    let rewritten = Rewritten { text, found, proof, confidence, conventions, unproved, numbers };
+    let rewritten = Rewritten {
+        text: written.into_source(),
+        found,
+        proof,
+        confidence,
+        conventions,
+        unproved: Diagnostics::new(),
+        numbers,
+        radius_added,
+    };
     (Some(rewritten), problems)
 }
 

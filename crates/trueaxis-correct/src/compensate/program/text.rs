@@ -2,25 +2,44 @@
 
 use super::number::Unit;
 use super::words::Words;
+use std::collections::BTreeMap;
 use std::ops::Range;
 use trueaxis_nc::{Control, Program};
 
 /// What became of a line.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 enum Line {
     /// Not executed, or without a move.
     AsItWas,
     /// Executed, and nothing had to be changed.
     Seen,
-    /// Other text, with its line ends; how many lines, and how many of them stand before the block.
-    Changed(Box<[u8]>, u32, u32),
+    /// Other text.
+    Changed,
 }
 
-/// A program that is being rewritten.
+/// Other text for a line, with its line ends; how many lines, and how many of them stand before the block.
+#[derive(Debug, Clone, PartialEq)]
+struct Change {
+    text: Box<[u8]>,
+    count: u32,
+    first: u32,
+}
+
+/// A program that is being rewritten: its new text grows line by line, in the order of the lines.
 pub(super) struct Text<'p> {
     program: &'p Program,
     starts: Vec<usize>,
     lines: Vec<Line>,
+    /// The new text of the first lines, where each of them begins in it, and its new number.
+    out: Vec<u8>,
+    places: Vec<usize>,
+    numbers: Vec<u32>,
+    /// The number of the next line of the new text.
+    number: u32,
+    /// Lines that were executed after later ones.
+    late: BTreeMap<usize, Change>,
+    /// Stands before the line with this index.
+    comment: (usize, String),
     /// The last line that was examined for what lasts, and what lasts there.
     modes: (usize, Modes),
     has_modes: bool,
@@ -41,10 +60,15 @@ impl Edits {
         self.0.is_empty()
     }
 
-    pub fn apply(mut self, source: &[u8], line: Range<usize>) -> Vec<u8> {
+    pub fn applied(self, source: &[u8], line: Range<usize>) -> Vec<u8> {
+        let mut out = Vec::with_capacity(line.len() + 32);
+        self.apply(source, line, &mut out);
+        out
+    }
+
+    fn apply(mut self, source: &[u8], line: Range<usize>, out: &mut Vec<u8>) {
         // Stable: what is put at one place keeps its order.
         self.0.sort_by_key(|(range, _)| range.start);
-        let mut out = Vec::with_capacity(line.len() + 32);
         let mut at = line.start;
         for (range, text) in self.0 {
             out.extend_from_slice(&source[at..range.start.max(at)]);
@@ -52,7 +76,6 @@ impl Edits {
             at = range.end.max(at);
         }
         out.extend_from_slice(&source[at..line.end]);
-        out
     }
 }
 
@@ -85,7 +108,8 @@ fn has_modes(source: &[u8]) -> bool {
 }
 
 impl<'p> Text<'p> {
-    pub fn of(program: &'p Program) -> Self {
+    /// With a comment after its heading.
+    pub fn of(program: &'p Program, comment: String) -> Self {
         let source = program.source();
         let mut starts = vec![0];
         for (i, byte) in source.iter().enumerate() {
@@ -98,9 +122,23 @@ impl<'p> Text<'p> {
                 starts.push(i + 1);
             }
         }
-        let lines = vec![Line::AsItWas; starts.len()];
-        let has_modes = has_modes(source);
-        Self { program, starts, lines, modes: (0, Modes::default()), has_modes, executed: false }
+        let (count, has_modes) = (starts.len(), has_modes(source));
+        let mut text = Self {
+            program,
+            starts,
+            lines: vec![Line::AsItWas; count],
+            out: Vec::with_capacity(source.len() + 256),
+            places: Vec::with_capacity(count),
+            numbers: Vec::with_capacity(count),
+            number: 1,
+            late: BTreeMap::new(),
+            comment: (0, comment),
+            modes: (0, Modes::default()),
+            has_modes,
+            executed: false,
+        };
+        text.comment.0 = text.heading();
+        text
     }
 
     pub fn control(&self) -> Control {
@@ -158,7 +196,7 @@ impl<'p> Text<'p> {
         match at {
             Line::AsItWas => *at = Line::Seen,
             Line::Seen => {}
-            Line::Changed(..) => return false,
+            Line::Changed => return false,
         }
         true
     }
@@ -166,27 +204,88 @@ impl<'p> Text<'p> {
     /// The line is changed and others follow it; `false` if it was executed before with another
     /// outcome.
     pub fn change(&mut self, line: u32, edits: Edits, [before, further]: [&[String]; 2]) -> bool {
+        let index = line as usize - 1;
+        let is_first = self.lines[index] == Line::AsItWas;
+        if !is_first && self.lines[index] == Line::Seen {
+            return false;
+        }
+        self.lines[index] = Line::Changed;
+        let first = before.len() as u32;
+        let count = first + 1 + further.len() as u32;
+        if index >= self.places.len() {
+            self.reach(index);
+            let mut out = std::mem::take(&mut self.out);
+            self.put(line, edits, [before, further], &mut out);
+            self.out = out;
+            self.done(count, first);
+            return true;
+        }
+        let mut text = Vec::new();
+        self.put(line, edits, [before, further], &mut text);
+        if is_first {
+            self.late.insert(index, Change { text: text.into(), count, first });
+            return true;
+        }
+        *text == *self.changed(index)
+    }
+
+    /// The changed line, and the others.
+    fn put(&self, line: u32, edits: Edits, [before, further]: [&[String]; 2], out: &mut Vec<u8>) {
         let ending = self.ending(line);
         let between: &[u8] = if ending.is_empty() { b"\n" } else { ending };
-        let mut text = Vec::new();
         for first in before {
-            text.extend_from_slice(first.as_bytes());
-            text.extend_from_slice(between);
+            out.extend_from_slice(first.as_bytes());
+            out.extend_from_slice(between);
         }
-        text.extend(edits.apply(self.source(), self.line(line)));
+        edits.apply(self.source(), self.line(line), out);
         for more in further {
-            text.extend_from_slice(between);
-            text.extend_from_slice(more.as_bytes());
+            out.extend_from_slice(between);
+            out.extend_from_slice(more.as_bytes());
         }
-        text.extend_from_slice(ending);
-        let first = before.len() as u32;
-        let changed = Line::Changed(text.into(), first + 1 + further.len() as u32, first);
-        let at = &mut self.lines[line as usize - 1];
-        match at {
-            Line::AsItWas => *at = changed,
-            same => return *same == changed,
+        out.extend_from_slice(ending);
+    }
+
+    /// The new text of a line that was changed.
+    fn changed(&self, index: usize) -> &[u8] {
+        if let Some(change) = self.late.get(&index) {
+            return &change.text;
         }
-        true
+        let end = self.places.get(index + 1).copied().unwrap_or(self.out.len());
+        let text = &self.out[self.places[index]..end];
+        // The comment is no part of the line before it.
+        let comment = if self.comment.0 == index + 1 { self.heading_comment() } else { Vec::new() };
+        text.strip_suffix(&comment[..]).unwrap_or(text)
+    }
+
+    fn heading_comment(&self) -> Vec<u8> {
+        let ending = if self.starts.len() == 1 { b"\n" } else { self.ending(1) };
+        [self.comment.1.as_bytes(), ending].concat()
+    }
+
+    /// The lines before an index stay as they were.
+    fn reach(&mut self, index: usize) {
+        loop {
+            let at = self.places.len();
+            if at == self.comment.0 {
+                let comment = self.heading_comment();
+                self.out.extend_from_slice(&comment);
+                self.number += 1;
+            }
+            self.places.push(self.out.len());
+            if at >= index {
+                return;
+            }
+            let end = self.starts.get(at + 1).copied().unwrap_or(self.source().len());
+            let start = self.starts[at];
+            self.out.extend_from_slice(&self.program.source()[start..end]);
+            self.done(1, 0);
+        }
+    }
+
+    /// A line is written: as so many lines, so many of them before the block.
+    fn done(&mut self, count: u32, first: u32) {
+        self.numbers.push(self.number + first);
+        self.number += count;
     }
 
     /// Whether the line was executed already.
@@ -194,37 +293,33 @@ impl<'p> Text<'p> {
         self.lines[line as usize - 1] != Line::AsItWas
     }
 
-    /// The new text with a comment after its heading, and the new number of each line.
-    pub fn finish(self, comment: &str) -> (Vec<u8>, Vec<u32>) {
-        let heading = self.heading();
-        let ending: &[u8] = match self.starts.len() {
-            1 => b"\n",
-            _ => self.ending(1),
-        };
-        let mut out = Vec::with_capacity(self.source().len() + 256);
-        let mut numbers = Vec::with_capacity(self.lines.len());
-        let mut number = 1;
-        for (i, line) in self.lines.iter().enumerate() {
-            if i == heading {
-                out.extend_from_slice(comment.as_bytes());
-                out.extend_from_slice(ending);
-                number += 1;
-            }
-            let first = if let Line::Changed(.., first) = line { *first } else { 0 };
-            numbers.push(number + first);
-            match line {
-                Line::Changed(text, count, _) => {
-                    out.extend_from_slice(text);
-                    number += count;
-                }
-                Line::AsItWas | Line::Seen => {
-                    let end = self.starts.get(i + 1).copied().unwrap_or(self.source().len());
-                    out.extend_from_slice(&self.source()[self.starts[i]..end]);
-                    number += 1;
-                }
+    /// The new text, and the new number of each line.
+    pub fn finish(mut self) -> (Vec<u8>, Vec<u32>) {
+        if self.places.len() < self.starts.len() {
+            self.reach(self.starts.len());
+        }
+        let mut shift = 0;
+        let (mut out, mut from) = (Vec::new(), 0);
+        if self.late.is_empty() {
+            return (self.out, self.numbers);
+        }
+        for (index, number) in self.numbers.iter_mut().enumerate() {
+            *number += shift;
+            if let Some(change) = self.late.get(&index) {
+                *number += change.first;
+                shift += change.count - 1;
             }
         }
-        (out, numbers)
+        for (index, change) in &self.late {
+            // They were written as they were.
+            let place = self.places[*index];
+            let was = self.starts.get(index + 1).copied().unwrap_or(self.source().len());
+            out.extend_from_slice(&self.out[from..place]);
+            out.extend_from_slice(&change.text);
+            from = place + was - self.starts[*index];
+        }
+        out.extend_from_slice(&self.out[from..]);
+        (out, self.numbers)
     }
 
     /// Lines that have to stand first: tape marks, program numbers and names.

@@ -67,7 +67,7 @@ pub struct Proof {
     pub worst: Vec<BlockResidual>,
     /// Pieces compared at their ends.
     pub compared: u64,
-    /// Axes that leave their travel or go too fast.
+    /// Axes that leave their travel, are programmed too fast or flip; no times.
     pub issues: IssueList,
     /// What was found while the written program was read.
     pub problems: Diagnostics,
@@ -86,36 +86,57 @@ pub(super) fn prove(
     (densify, limits): (Densify, [f64; 2]),
 ) -> Proof {
     let [was, is] = programs;
-    let options = Options { densify, ..Options::default() };
+    // Places and travel count, not times.
+    let options = Options { densify, timing: Timing::Untimed, ..Options::default() };
     let mut before = Compare::of(found, numbers, None);
     let mut after = Compare::of(found, numbers, Some(limits));
     let mut watch = AxisWatch::on(machine);
-    // Of the program as it was places count, not times.
-    let places = Options { timing: Timing::Untimed, ..options.clone() };
     let (_, run) = rayon::join(
-        || simulate(machine, was, setup, &places, &mut [&mut before]),
+        || simulate(machine, was, setup, &options, &mut [&mut before]),
         || simulate(machine, is, setup, &options, &mut [&mut after, &mut watch]),
     );
-    let mut worst = before.rows;
-    for (row, other) in worst.iter_mut().zip(&after.rows) {
-        (row.tip_after_mm, row.axis_after_rad) = (other.tip_before_mm, other.axis_before_rad);
-        row.line = row.line.max(other.line);
-    }
-    worst.retain(|row| row.line > 0);
-    worst.sort_by(|a, b| {
-        let left = b.tip_after_mm.total_cmp(&a.tip_after_mm);
-        left.then(b.tip_before_mm.total_cmp(&a.tip_before_mm))
-    });
-    worst.truncate(WORST);
     Proof {
         before: before.residual,
         after: after.residual,
-        worst,
+        worst: worst(&before.rows, &after.rows),
         compared: after.compared,
         issues: IssueList::of([watch.log]),
         problems: run.problems,
     }
 }
+
+/// The worst blocks of both runs; of equal ones those that come first.
+fn worst(before: &[Missed], after: &[Missed]) -> Vec<BlockResidual> {
+    let mut worst: Vec<BlockResidual> = Vec::with_capacity(WORST + 1);
+    for (line, (before, after)) in before.iter().zip(after).enumerate() {
+        if *before == UNSEEN && *after == UNSEEN {
+            continue;
+        }
+        let row = BlockResidual {
+            line: line as u32,
+            tip_before_mm: before[0].max(0.0),
+            tip_after_mm: after[0].max(0.0),
+            axis_before_rad: before[1].max(0.0),
+            axis_after_rad: after[1].max(0.0),
+        };
+        let is_before = |other: &BlockResidual| {
+            let by = other.tip_after_mm.total_cmp(&row.tip_after_mm);
+            by.then(other.tip_before_mm.total_cmp(&row.tip_before_mm)).is_ge()
+        };
+        let at = worst.partition_point(is_before);
+        if at < WORST {
+            worst.insert(at, row);
+            worst.truncate(WORST);
+        }
+    }
+    worst
+}
+
+/// The largest deviations in a block: of the tip, mm, and of the tool axis, rad.
+type Missed = [f64; 2];
+
+/// Of a block that was not passed.
+const UNSEEN: Missed = [-1.0; 2];
 
 struct Compare<'f> {
     found: &'f Found,
@@ -125,7 +146,7 @@ struct Compare<'f> {
     at_line: Vec<(u32, u32)>,
     line: u32,
     ended: bool,
-    rows: Vec<BlockResidual>,
+    rows: Vec<Missed>,
     residual: Residual,
     compared: u64,
 }
@@ -149,7 +170,7 @@ impl<'f> Compare<'f> {
                 _ => {}
             }
         }
-        let rows = vec![BlockResidual::default(); numbers.len() + 1];
+        let rows = vec![UNSEEN; numbers.len() + 1];
         Self {
             found,
             limits,
@@ -208,9 +229,8 @@ impl<'f> Compare<'f> {
 
     fn row(&mut self, line: u32, [tip, axis]: [f64; 2]) {
         let row = &mut self.rows[line as usize];
-        row.line = line;
-        row.tip_before_mm = row.tip_before_mm.max(tip);
-        row.axis_before_rad = row.axis_before_rad.max(axis);
+        // Not a number counts as passed.
+        *row = [row[0].max(0.0).max(tip), row[1].max(0.0).max(axis)];
     }
 }
 

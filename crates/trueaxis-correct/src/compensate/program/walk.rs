@@ -8,6 +8,7 @@ use super::block::{Block, Written};
 use super::computed::{Computed, free_locals};
 use super::correct::Corrector;
 use super::found::{Found, Want};
+use super::guard;
 use super::number::{Grid, Of};
 use super::refuse::{again, cone, refusal};
 use super::stand::{Cut, Sample, Stand};
@@ -20,7 +21,7 @@ use trueaxis_motion::axis_path::{AxisPath, Fault};
 use trueaxis_motion::{Densify, Node, SetUp};
 use trueaxis_nc::Program;
 use trueaxis_nc::moves::{
-    Arc, AxisSet, Coordinates, Event, FeedMode, Move, MoveKind, Origin, Step,
+    Arc, AxisSet, CompensationSide, Coordinates, Event, FeedMode, Move, MoveKind, Origin, Step,
 };
 
 const TO_MACHINE_ZERO: &str = "rapid to machine coordinates";
@@ -45,10 +46,12 @@ pub(super) struct Walk<'w> {
     pub tip_followed: Option<u32>,
     /// The program or the set-up gave the control a tool length.
     pub length_stated: bool,
+    /// The program adds a radius that is not 0 to its contour.
+    pub radius_added: bool,
     /// What blocks compute.
     computed: Computed,
     /// Local parameters of Klartext that the program does not use.
-    locals: Vec<u16>,
+    locals: std::sync::Arc<[u16]>,
     /// The feed that the next block has to state again.
     feed_again: Option<f64>,
     /// Circles may stay circles.
@@ -92,15 +95,16 @@ impl<'w> Walk<'w> {
             setup,
             corrector,
             written: AxisPath::new(machine, setup, ENDS, 0.01),
-            text: Text::of(program),
+            text: Text::of(program, guard::comment(&options.mark, program.dialect().control)),
             found: Found::of(machine),
             fault: None,
             last: None,
             vectors: false,
             tip_followed: None,
             length_stated: false,
+            radius_added: false,
             computed: Computed::of(program.dialect().control),
-            locals: free_locals(program.source(), program.dialect().control),
+            locals: free_locals(program.source(), program.dialect().control).into(),
             feed_again: None,
             arcs: true,
             circle_gone: false,
@@ -171,6 +175,9 @@ impl<'w> Walk<'w> {
                     hint: "correct the place alone: --position-only",
                 });
             }
+            Event::Compensation { side, radius_mm } => {
+                self.radius_added |= *side != CompensationSide::Off && *radius_mm != 0.0;
+            }
             Event::ToolLength(length) => self.length_stated |= length.0.iter().any(|l| *l != 0.0),
             _ => {}
         }
@@ -185,8 +192,9 @@ impl<'w> Walk<'w> {
         };
         self.vectors |= m.direction.is_some();
         let begins_cut = (m.kind == MoveKind::Rapid).then_some(ahead.begins_cut);
-        self.written_by(m, &way, begins_cut)?;
-        let words = (m.origin.program == 0 && m.origin.line > 0).then(|| self.words(m.origin.line));
+        let words = self.written_by(m, &way, begins_cut)?;
+        let is_here = m.origin.program == 0 && m.origin.line > 0;
+        let words = words.or_else(|| is_here.then(|| self.words(m.origin.line)));
         let incremental = words.as_ref().is_some_and(|(_, modes)| modes.incremental);
         self.computed.moved(m, words.as_ref().map(|(words, _)| words), incremental);
         Ok(())
@@ -203,10 +211,12 @@ impl<'w> Walk<'w> {
         m: &Move,
         way: &Way<'_>,
         begins_cut: Option<AxisSet>,
-    ) -> Result<(), Fault> {
+    ) -> Result<Option<(Words, Modes)>, Fault> {
         match self.why_left(m, way.nodes) {
-            Some(why) => self.leave(m, why),
-            None if begins_cut == Some(AxisSet::default()) => self.leave(m, NO_CUT_BEGINS),
+            Some(why) => self.leave(m, why).map(|()| None),
+            None if begins_cut == Some(AxisSet::default()) => {
+                self.leave(m, NO_CUT_BEGINS).map(|()| None)
+            }
             None if self.written.turns_on_cone() => Err(cone(m.origin)),
             None => self.rewrite(m, way, begins_cut),
         }
@@ -272,13 +282,18 @@ impl<'w> Walk<'w> {
         self.corrector.moved(&from, self.written.command());
     }
 
-    /// Corrects a move and writes it; of a rapid only the words of some axes.
-    fn rewrite(&mut self, m: &Move, way: &Way<'_>, only: Option<AxisSet>) -> Result<(), Fault> {
+    /// Corrects a move and writes it; of a rapid only the words of some axes. The words of its line come back.
+    fn rewrite(
+        &mut self,
+        m: &Move,
+        way: &Way<'_>,
+        only: Option<AxisSet>,
+    ) -> Result<Option<(Words, Modes)>, Fault> {
         let whole = matches!(m.kind, MoveKind::Rapid | MoveKind::Thread { .. });
         let samples = self.samples(m, way, whole)?;
         self.exact = samples[samples.len() - 1].command;
         if m.origin.program != 0 {
-            return self.in_subprogram(m, &samples);
+            return self.in_subprogram(m, &samples).map(|()| None);
         }
         if self.last == Some(m.origin) {
             let message = "the block makes several moves, as a cycle or a chamfer does: they have \
@@ -305,7 +320,7 @@ impl<'w> Walk<'w> {
         let says_circle = words.motion.is_some() || !self.circle_gone;
         let kept = self.kept_circle(m, &samples, words.motion.is_some());
         let ends = if kept { vec![samples.len() - 1] } else { ends };
-        let locals = self.locals.clone();
+        let locals = std::sync::Arc::clone(&self.locals);
         let mut block = Block {
             m,
             source: self.text.source(),
@@ -337,7 +352,7 @@ impl<'w> Walk<'w> {
         block.pieces = ends.len();
         self.circle_gone &= block.arc.is_none();
         let turns_deg = self.turns_deg(m, way);
-        let (mut from, first_stand) = (0, self.found.stands.len());
+        let (mut from, first_want) = (0, self.found.wants.len());
         for (piece, to) in ends.iter().enumerate() {
             let share = samples[*to].u - samples[from].u;
             let way = (samples[from].command, samples[*to].command);
@@ -372,12 +387,12 @@ impl<'w> Walk<'w> {
         let (edits, before, further) = (block.edits, block.before, block.further);
         let unchanged = edits.is_empty() && further.is_empty();
         let line = m.origin.line;
-        self.found.executed(line, first_stand);
+        self.found.executed(line, first_want);
         let fits = match unchanged {
             true => self.text.keep(line),
             false => self.text.change(line, edits, [&before, &further]),
         };
-        if fits { Ok(()) } else { Err(again(m.origin)) }
+        if fits { Ok(Some((words, modes))) } else { Err(again(m.origin)) }
     }
 
     /// The circle that keeps the residual on the corrected places; none at turning points.
