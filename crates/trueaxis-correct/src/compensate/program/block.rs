@@ -191,7 +191,8 @@ impl Block<'_> {
         if self.only.is_some_and(|only| !only.contains(axis)) {
             return self.stays(axis, m);
         }
-        let word = self.words.axes[axis as usize].clone().filter(|_| piece == 0);
+        let words = self.words;
+        let word = words.axes[axis as usize].as_ref().filter(|_| piece == 0);
         let Some(word) = word else {
             if piece == 0 && self.m.named.contains(axis) && !self.is_circle() {
                 return Err(self.no_word(axis));
@@ -229,13 +230,13 @@ impl Block<'_> {
             if self.grid.same(wanted, old, of) {
                 (old, None)
             } else {
-                let offset = self.offset(axis, &word, old)?;
+                let offset = self.offset(axis, word, old)?;
                 (value, Some(value - offset))
             }
         };
         m.target[axis] = value;
         match shown {
-            Some(shown) => self.put_number(&word, shown, of),
+            Some(shown) => self.put_number(word, shown, of),
             None => Ok(()),
         }
     }
@@ -328,7 +329,7 @@ impl Block<'_> {
             m.direction = here;
             return Ok(());
         }
-        let words: Vec<Option<Word>> = self.words.vector.to_vec();
+        let words = &self.words.vector;
         if here.is_some() {
             let fits = words.iter().zip(old).all(|(word, part)| match word {
                 Some(word) => word.value.is_some_and(|v| (v - part).abs() < 1e-12),

@@ -201,6 +201,11 @@ impl Found {
         same(to - 1, last) && (end_only || to - from == 1 || same(*from, first))
     }
 
+    /// The program is written: what only the walk asks for goes.
+    pub(super) fn end(&mut self) {
+        self.led = Vec::new();
+    }
+
     /// A line was executed; its pieces begin with this one.
     pub(super) fn executed(&mut self, line: u32, first: usize) {
         let index = line as usize;

@@ -1,10 +1,11 @@
 //! The text that is rewritten line by line; all other bytes stay.
 
+use super::line_table::LineTable;
 use super::number::Unit;
 use super::words::Words;
 use std::collections::BTreeMap;
 use std::ops::Range;
-use trueaxis_nc::{Control, Program};
+use trueaxis_nc::Control;
 
 /// What became of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,8 +28,7 @@ struct Change {
 
 /// A program that is being rewritten: its new text grows line by line, in the order of the lines.
 pub(super) struct Text<'p> {
-    program: &'p Program,
-    starts: Vec<usize>,
+    table: &'p LineTable<'p>,
     lines: Vec<Line>,
     /// The new text of the first lines, where each of them begins in it, and its new number.
     out: Vec<u8>,
@@ -109,25 +109,12 @@ fn has_modes(source: &[u8]) -> bool {
 
 impl<'p> Text<'p> {
     /// With a comment after its heading.
-    pub fn of(program: &'p Program, comment: String) -> Self {
-        let source = program.source();
-        let mut starts = vec![0];
-        for (i, byte) in source.iter().enumerate() {
-            let ends = match byte {
-                b'\n' => true,
-                b'\r' => source.get(i + 1) != Some(&b'\n'),
-                _ => false,
-            };
-            if ends {
-                starts.push(i + 1);
-            }
-        }
-        let (count, has_modes) = (starts.len(), has_modes(source));
+    pub fn of(table: &'p LineTable<'p>, comment: String) -> Self {
+        let (count, has_modes) = (table.count(), has_modes(table.source()));
         let mut text = Self {
-            program,
-            starts,
+            table,
             lines: vec![Line::AsItWas; count],
-            out: Vec::with_capacity(source.len() + 256),
+            out: Vec::with_capacity(table.source().len() + 256),
             places: Vec::with_capacity(count),
             numbers: Vec::with_capacity(count),
             number: 1,
@@ -142,52 +129,33 @@ impl<'p> Text<'p> {
     }
 
     pub fn control(&self) -> Control {
-        self.program.dialect().control
+        self.table.program().dialect().control
     }
 
     pub fn source(&self) -> &'p [u8] {
-        self.program.source()
-    }
-
-    /// The bytes of a line from 1, without its end.
-    fn line(&self, line: u32) -> Range<usize> {
-        let index = line as usize - 1;
-        let source = self.source();
-        let start = self.starts.get(index).copied().unwrap_or(source.len());
-        let mut end = self.starts.get(index + 1).copied().unwrap_or(source.len());
-        while end > start && matches!(source[end - 1], b'\n' | b'\r') {
-            end -= 1;
-        }
-        start..end
-    }
-
-    fn ending(&self, line: u32) -> &'p [u8] {
-        let next = self.starts.get(line as usize).copied().unwrap_or(self.source().len());
-        &self.source()[self.line(line).end..next]
+        self.table.source()
     }
 
     /// A block is executed.
     pub fn execute(&mut self, block: &Range<usize>) {
         self.executed = true;
         if self.has_modes {
-            let (source, dialect) = (self.program.source(), self.program.dialect());
+            let (source, dialect) = (self.source(), self.table.program().dialect());
             self.modes.1.follow(&Words::read(source, dialect, block.clone()));
         }
     }
 
-    /// The words of a line from 1, lengths in mm, and what lasts there.
-    pub fn words(&mut self, line: u32) -> (Words, Modes) {
-        let (source, dialect) = (self.program.source(), self.program.dialect());
+    /// The words of a line from 1, lengths in mm, and what lasts there; they are read already.
+    pub fn words(&mut self, line: u32, mut read: Box<Words>) -> (Box<Words>, Modes) {
         let index = line as usize;
         if self.has_modes && !self.executed && index > self.modes.0 {
             for number in self.modes.0 + 1..=index {
-                let words = Words::read(source, dialect, self.line(number as u32));
-                self.modes.1.follow(&words);
+                self.modes.1.follow(&self.table.words(number as u32));
             }
             self.modes.0 = index;
         }
-        let words = Words::read(source, dialect, self.line(line));
-        (words.scaled(self.modes.1.unit), self.modes.1)
+        read.scale(self.modes.1.unit);
+        (read, self.modes.1)
     }
 
     /// The line was executed and stays as it is; `false` if it was changed before.
@@ -231,13 +199,13 @@ impl<'p> Text<'p> {
 
     /// The changed line, and the others.
     fn put(&self, line: u32, edits: Edits, [before, further]: [&[String]; 2], out: &mut Vec<u8>) {
-        let ending = self.ending(line);
+        let ending = self.table.ending(line);
         let between: &[u8] = if ending.is_empty() { b"\n" } else { ending };
         for first in before {
             out.extend_from_slice(first.as_bytes());
             out.extend_from_slice(between);
         }
-        edits.apply(self.source(), self.line(line), out);
+        edits.apply(self.source(), self.table.line(line), out);
         for more in further {
             out.extend_from_slice(between);
             out.extend_from_slice(more.as_bytes());
@@ -258,7 +226,7 @@ impl<'p> Text<'p> {
     }
 
     fn heading_comment(&self) -> Vec<u8> {
-        let ending = if self.starts.len() == 1 { b"\n" } else { self.ending(1) };
+        let ending = if self.table.count() == 1 { b"\n" } else { self.table.ending(1) };
         [self.comment.1.as_bytes(), ending].concat()
     }
 
@@ -275,9 +243,8 @@ impl<'p> Text<'p> {
             if at >= index {
                 return;
             }
-            let end = self.starts.get(at + 1).copied().unwrap_or(self.source().len());
-            let start = self.starts[at];
-            self.out.extend_from_slice(&self.program.source()[start..end]);
+            let line = &self.table.source()[self.table.whole(at)];
+            self.out.extend_from_slice(line);
             self.done(1, 0);
         }
     }
@@ -295,8 +262,8 @@ impl<'p> Text<'p> {
 
     /// The new text, and the new number of each line.
     pub fn finish(mut self) -> (Vec<u8>, Vec<u32>) {
-        if self.places.len() < self.starts.len() {
-            self.reach(self.starts.len());
+        if self.places.len() < self.table.count() {
+            self.reach(self.table.count());
         }
         let mut shift = 0;
         let (mut out, mut from) = (Vec::new(), 0);
@@ -313,10 +280,9 @@ impl<'p> Text<'p> {
         for (index, change) in &self.late {
             // They were written as they were.
             let place = self.places[*index];
-            let was = self.starts.get(index + 1).copied().unwrap_or(self.source().len());
             out.extend_from_slice(&self.out[from..place]);
             out.extend_from_slice(&change.text);
-            from = place + was - self.starts[*index];
+            from = place + self.table.whole(*index).len();
         }
         out.extend_from_slice(&self.out[from..]);
         (out, self.numbers)
@@ -325,7 +291,7 @@ impl<'p> Text<'p> {
     /// Lines that have to stand first: tape marks, program numbers and names.
     fn heading(&self) -> usize {
         let is_heading = |line: usize| {
-            let range = self.line(line as u32 + 1);
+            let range = self.table.line(line as u32 + 1);
             let text = String::from_utf8_lossy(&self.source()[range]).trim().to_ascii_uppercase();
             let number =
                 |t: &str| t.starts_with('O') && t[1..].starts_with(|c: char| c.is_ascii_digit());
@@ -335,6 +301,6 @@ impl<'p> Text<'p> {
                 || number(&text)
                 || text.contains("BEGIN PGM")
         };
-        (0..self.starts.len().min(20)).find(|i| !is_heading(*i)).unwrap_or(0)
+        (0..self.table.count().min(20)).find(|i| !is_heading(*i)).unwrap_or(0)
     }
 }

@@ -5,8 +5,9 @@ use super::stand::Stand;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
+use trueaxis_machine::axis::Travel;
 use trueaxis_motion::{
-    AxisWatch, Batch, Densify, IssueList, Observer, Options, SetUp, Timing, simulate,
+    Batch, Densify, IssueKind, IssueList, Log, Observer, Options, SetUp, Timing, simulate,
 };
 use trueaxis_nc::Program;
 
@@ -67,7 +68,7 @@ pub struct Proof {
     pub worst: Vec<BlockResidual>,
     /// Pieces compared at their ends.
     pub compared: u64,
-    /// Axes that leave their travel, are programmed too fast or flip; no times.
+    /// Axes that leave their travel.
     pub issues: IssueList,
     /// What was found while the written program was read.
     pub problems: Diagnostics,
@@ -90,7 +91,7 @@ pub(super) fn prove(
     let options = Options { densify, timing: Timing::Untimed, ..Options::default() };
     let mut before = Compare::of(found, numbers, None);
     let mut after = Compare::of(found, numbers, Some(limits));
-    let mut watch = AxisWatch::on(machine);
+    let mut watch = TravelWatch { machine, log: Log::default() };
     let (_, run) = rayon::join(
         || simulate(machine, was, setup, &options, &mut [&mut before]),
         || simulate(machine, is, setup, &options, &mut [&mut after, &mut watch]),
@@ -102,6 +103,28 @@ pub(super) fn prove(
         compared: after.compared,
         issues: IssueList::of([watch.log]),
         problems: run.problems,
+    }
+}
+
+/// Watches the travel of the axes.
+struct TravelWatch<'m> {
+    machine: &'m Machine,
+    log: Log,
+}
+
+impl Observer for TravelWatch<'_> {
+    fn path(&mut self, batch: &Batch<'_>) {
+        for (node, stamp) in batch.nodes.iter().zip(batch.stamps) {
+            for (axis, q) in node.command.iter().enumerate().take(self.machine.axes().len()) {
+                let travel = self.machine.axes()[axis].travel;
+                if let Travel::Between(low, high) = travel
+                    && !travel.contains(*q)
+                {
+                    let limit = if *q > high { high } else { low };
+                    self.log.note(IssueKind::OverTravel { axis }, node, stamp, *q, limit);
+                }
+            }
+        }
     }
 }
 
@@ -138,12 +161,19 @@ type Missed = [f64; 2];
 /// Of a block that was not passed.
 const UNSEEN: Missed = [-1.0; 2];
 
+/// The line of a want in the program that is simulated.
+fn simulated(want: &Want, numbers: Option<&[u32]>) -> u32 {
+    numbers.map_or(want.line, |numbers| numbers[want.line as usize - 1] + want.piece)
+}
+
 struct Compare<'f> {
     found: &'f Found,
     /// Of the written program: what its tip, mm, and its axis, rad, may miss between the ends of blocks.
     limits: Option<[f64; 2]>,
-    /// The wants of each line of the simulated program: the first and how many.
-    at_line: Vec<(u32, u32)>,
+    /// The first want of each line of the simulated program, counted from 1; 0 if there is none.
+    at_line: Vec<u32>,
+    /// Of the written program: the lines that those of the program as it was became.
+    numbers: Option<&'f [u32]>,
     line: u32,
     ended: bool,
     rows: Vec<Missed>,
@@ -152,22 +182,17 @@ struct Compare<'f> {
 }
 
 impl<'f> Compare<'f> {
-    fn of(found: &'f Found, numbers: &[u32], limits: Option<[f64; 2]>) -> Self {
-        let mut at_line: Vec<(u32, u32)> = Vec::new();
+    fn of(found: &'f Found, numbers: &'f [u32], limits: Option<[f64; 2]>) -> Self {
+        let numbers_of_run = limits.map(|_| numbers);
+        let mut at_line = vec![0; numbers.len() + 1];
         for (i, want) in found.wants.iter().enumerate() {
-            let number = match limits {
-                Some(_) => numbers[want.line as usize - 1] + want.piece,
-                None => want.line,
-            } as usize;
+            let number = simulated(want, numbers_of_run) as usize;
             if at_line.len() <= number {
-                at_line.resize(number + 1, (0, 0));
+                at_line.resize(number + 1, 0);
             }
-            let entry = &mut at_line[number];
-            match entry.1 {
-                0 => *entry = (i as u32, 1),
-                // A block that is executed again goes to the same places.
-                count if (entry.0 + count) as usize == i => entry.1 += 1,
-                _ => {}
+            // A block that is executed again goes to the same places.
+            if at_line[number] == 0 {
+                at_line[number] = i as u32 + 1;
             }
         }
         let rows = vec![UNSEEN; numbers.len() + 1];
@@ -175,6 +200,7 @@ impl<'f> Compare<'f> {
             found,
             limits,
             at_line,
+            numbers: numbers_of_run,
             line: 0,
             ended: false,
             rows,
@@ -184,8 +210,11 @@ impl<'f> Compare<'f> {
     }
 
     fn wants(&self, line: u32) -> &'f [Want] {
-        let (from, count) = self.at_line.get(line as usize).copied().unwrap_or((0, 0));
-        &self.found.wants[from as usize..(from + count) as usize]
+        let first = self.at_line.get(line as usize).copied().unwrap_or(0);
+        let Some(from) = first.checked_sub(1) else { return &[] };
+        let rest = &self.found.wants[from as usize..];
+        let others = |want: &Want| simulated(want, self.numbers) != line;
+        &rest[..rest.iter().position(others).unwrap_or(rest.len())]
     }
 
     /// How far a place is from the way of a piece.
