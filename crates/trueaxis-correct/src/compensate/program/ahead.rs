@@ -20,8 +20,8 @@ const NODES: usize = 4096;
 /// Steps of a stretch that lead nowhere are not gathered for ever.
 const STEPS: usize = 4096;
 
-/// Stretches that wait: each some 1 MB.
-const WAITING: usize = 4;
+/// Stretches that wait: each some 6 MB with the words of its lines.
+const WAITING: usize = 2;
 
 /// Some steps of the program that follow each other, with one tool.
 #[derive(Debug, Default)]

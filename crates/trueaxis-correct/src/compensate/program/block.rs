@@ -3,9 +3,9 @@
 use super::computed::{Expression, Resting};
 use super::number::{Grid, Of, Unit};
 use super::refuse::refusal;
-use super::stand::Stand;
 use super::text::Edits;
 use super::words::{Word, Words};
+use trueaxis_geometry::Vec3;
 use trueaxis_machine::axis::Command;
 use trueaxis_motion::axis_path::{AxisPath, Fault, Straight};
 use trueaxis_nc::Control;
@@ -55,8 +55,9 @@ pub(super) struct Written {
     pub piece: usize,
     /// Its part of the way.
     pub share: f64,
-    /// Where the axes shall stand at its end.
+    /// Where the axes shall stand at its end, and where the control believes the tip to be then.
     pub command: Command,
+    pub tip: Vec3,
 }
 
 /// What the control makes of a piece.
@@ -155,7 +156,7 @@ impl Block<'_> {
                 rounded[i] += self.rotary_rounding(axis, at, step.piece).to_radians();
             }
         }
-        match control.place(Stand::of(control, &step.command).tip, &mut rounded) {
+        match control.place(step.tip, &mut rounded) {
             true => path.words_of(&rounded, self.m.coordinates),
             false => exact,
         }

@@ -34,6 +34,8 @@ const VECTOR: f64 = 1e-8;
 pub(super) struct Grid {
     pub increments: Option<Increments>,
     pub unit: Unit,
+    /// The digits after the point of numbers of each kind that are written on the grid.
+    digits: [usize; 3],
 }
 
 /// The unit of lengths in a block.
@@ -68,7 +70,12 @@ pub(super) enum Of {
 impl Grid {
     /// By the increments of the control; without them numbers are written in full.
     pub fn of(increments: Option<Increments>, unit: Unit) -> Self {
-        Self { increments, unit }
+        let mut grid = Self { increments, unit, digits: [0; 3] };
+        for of in [Of::Linear, Of::Rotary, Of::Direction] {
+            grid.digits[of as usize] =
+                grid.step(of).map_or(0, |step| (-step.log10()).ceil().clamp(0.0, 12.0) as usize);
+        }
+        grid
     }
 
     /// The factor of a written number to mm or degrees.
@@ -124,7 +131,7 @@ impl Grid {
         let size = (by / self.scale(of)).abs();
         let least = match self.step(of) {
             Some(_) if size <= near => return None,
-            Some(step) => (-step.log10()).ceil().clamp(0.0, 12.0) as usize,
+            Some(_) => self.digits[of as usize],
             None => return (size > 0.0).then(|| format!("{size}")),
         };
         let written = |digits: usize| (10_f64.powi(digits as i32), digits);
@@ -142,7 +149,7 @@ impl Grid {
     pub fn text(self, value: f64, of: Of, control: Control) -> String {
         let value = value / self.scale(of) + 0.0;
         let digits = match self.step(of) {
-            Some(step) => Some((-step.log10()).ceil().clamp(0.0, 12.0) as usize),
+            Some(_) => Some(self.digits[of as usize]),
             // 3 in are 76.2 mm, and 76.2 / 25.4 is 2.9999999999999996.
             None if self.scale(of) != 1.0 => Some(12),
             None => None,

@@ -10,7 +10,7 @@ use super::correct::Corrector;
 use super::found::{Found, Want};
 use super::guard;
 use super::line_table::LineTable;
-use super::number::{Grid, Of};
+use super::number::{Grid, Of, Unit};
 use super::refuse::{again, cone, refusal};
 use super::stand::{Cut, Sample, Stand};
 use super::text::{Edits, Modes, Text};
@@ -54,6 +54,8 @@ pub(super) struct Walk<'w> {
     locals: std::sync::Arc<[u16]>,
     /// The feed that the next block has to state again.
     feed_again: Option<f64>,
+    /// In mm and in inches.
+    grids: [Grid; 2],
     /// Circles may stay circles.
     arcs: bool,
     /// A circle became lines, and the next one may rely on its G2 or G3.
@@ -109,6 +111,7 @@ impl<'w> Walk<'w> {
             computed: Computed::of(control),
             locals: free_locals(source, control).into(),
             feed_again: None,
+            grids: [Unit::Millimetre, Unit::Inch].map(|u| Grid::of(options.increments, u)),
             arcs: true,
             circle_gone: false,
             exact: Command::default(),
@@ -301,7 +304,7 @@ impl<'w> Walk<'w> {
             return Err(again(m.origin));
         }
         self.found.led_elsewhere |= !first_time && !leads;
-        let grid = Grid::of(self.options.increments, modes.unit);
+        let grid = self.grids[usize::from(modes.unit == Unit::Inch)];
         let says_circle = words.motion.is_some() || !self.circle_gone;
         let kept = self.kept_circle(m, &samples, words.motion.is_some());
         let ends = if kept { vec![samples.len() - 1] } else { ends };
@@ -344,7 +347,8 @@ impl<'w> Walk<'w> {
             if kept {
                 self.go_as_written(m);
             } else {
-                let step = Written { piece, share, command: way.1 };
+                let tip = samples[*to].believed.tip;
+                let step = Written { piece, share, command: way.1, tip };
                 let next = block.write(&self.written, &step, turns_deg)?;
                 self.feed_again = next.feed_again.or(self.feed_again);
                 self.go(&next.m);
