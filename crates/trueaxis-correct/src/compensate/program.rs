@@ -18,6 +18,7 @@ mod flat;
 mod found;
 mod guard;
 mod length;
+mod line_table;
 mod lines;
 mod number;
 mod radius;
@@ -37,7 +38,9 @@ pub use guard::{Confidence, Convention, MARK, Wrong, is_compensated};
 pub use number::Increments;
 pub use verify::{BlockResidual, Largest, Proof, Residual};
 
-use ahead::Gather;
+use ahead::{Gather, Stretch};
+use line_table::LineTable;
+use std::sync::mpsc::Receiver;
 use trueaxis_input::{Diagnostic, Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_motion::Densify;
@@ -140,6 +143,8 @@ pub struct Rewritten {
     pub unproved: Diagnostics,
     /// The first line that each line became.
     numbers: Vec<u32>,
+    /// The program adds a radius that is not 0 to its contour.
+    radius_added: bool,
 }
 
 /// Places are examined so finely; each further try halves it.
@@ -296,7 +301,7 @@ fn on_contour(
     options: &ProgramOptions,
 ) -> OnContour {
     let (mut done, mut problems) = tried(machine, program, &setup.on_contour(), options);
-    let Some(rewritten) = done.as_mut().filter(|_| radius::is_used(machine, program, setup)) else {
+    let Some(rewritten) = done.as_mut().filter(|done| done.radius_added) else {
         return OnContour::Done(Box::new(done), problems);
     };
     let written = Program::new(program.file(), rewritten.text.clone(), program.dialect().control);
@@ -387,13 +392,15 @@ fn once(
         let place = place(program, programs, fault);
         problems.error(fault.code, place, fault.message.clone(), fault.hint);
     };
+    let table = LineTable::of(program);
     let walked = |report_blocks: bool| {
-        let walk = Walk::new(&mounted, program, setup, options)?;
+        let walk = Walk::new(&mounted, &table, setup, options)?;
         // The first tries keep circles; where the proof speaks against it, they become lines.
         let walk = if attempt < ARCS { walk } else { walk.without_arcs() };
         let nominal = AxisPath::new(&mounted, setup, densify(options, attempt, least), 0.01);
         let settings = Settings { report_blocks, ..setup.settings(false) };
-        Ok(both(nominal, walk, |ahead| execute_on(&mounted, program, setup, &settings, ahead)))
+        let gather = Gather::along(nominal, &table);
+        Ok(both(gather, walk, |ahead| execute_on(&mounted, program, setup, &settings, ahead)))
     };
     let reported = computed::may_compute(program.source(), program.dialect().control);
     // Another program may compute, too.
@@ -426,30 +433,38 @@ fn once(
     let conventions = worst
         .map_or(Vec::new(), |(_, nominal, command)| guard::conventions(tooled, &nominal, &command));
     let control = program.dialect().control;
-    let (text, numbers) = walk.text.finish(&guard::comment(&options.mark, control));
-    let found = walk.found;
+    let (text, numbers) = walk.text.finish();
+    let (mut found, radius_added) = (walk.found, walk.radius_added);
+    found.end();
+    drop(table);
     let written = Program::new(program.file(), text, control);
     // The middle of every block at least is examined.
     let finer = densify(options, attempt + 1, 2 * least);
     let by = (finer, options.limits_between());
     let proof = verify::prove(machine, [program, &written], setup, &found, &numbers, by);
-    let text = written.source().to_vec();
-    let unproved = Diagnostics::new();
-    let rewritten = Rewritten { text, found, proof, confidence, conventions, unproved, numbers };
+    let rewritten = Rewritten {
+        text: written.into_source(),
+        found,
+        proof,
+        confidence,
+        conventions,
+        unproved: Diagnostics::new(),
+        numbers,
+        radius_added,
+    };
     (Some(rewritten), problems)
 }
 
 /// Executes a program, and writes it in a thread of its own.
 fn both<'w>(
-    nominal: AxisPath<'w>,
+    (mut ahead, stretches): (Gather<'_>, Receiver<Stretch>),
     mut walk: Walk<'w>,
     execute: impl FnOnce(&mut dyn Follower) -> Outcome,
 ) -> (Outcome, Walk<'w>) {
     std::thread::scope(|scope| {
-        let (mut ahead, stretches) = Gather::along(nominal);
         let writer = scope.spawn(move || {
             for stretch in stretches {
-                walk.take(&stretch);
+                walk.take(stretch);
                 if walk.fault.is_some() {
                     break;
                 }

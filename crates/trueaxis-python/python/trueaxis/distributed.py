@@ -110,8 +110,10 @@ def _values(study: Study, start: int, stop: int) -> Tuple[Floats, float]:
 def _computed(
     study: Study, client: Any, wanted: List[Tuple[int, Tuple[int, int]]], retries: int
 ) -> Iterator[Tuple[int, Floats]]:
-    from dask.distributed import as_completed
+    import dask.distributed
 
+    # Without types of its own.
+    as_completed: Any = dask.distributed.as_completed
     if not wanted:
         return
     sent = client.scatter(study, broadcast=True, hash=False)

@@ -212,8 +212,9 @@ impl Answer for ProgramAnswer {
 
     fn files(&mut self) -> Vec<NewFile> {
         let Some(path) = &self.output else { return Vec::new() };
-        let text = &self.rewritten.text;
-        let content = if self.is_yes() { text.clone() } else { marked(text) };
+        // Nothing after this asks for the text: of a large program there is one.
+        let text = std::mem::take(&mut self.rewritten.text);
+        let content = if self.is_yes() { text } else { marked(&text) };
         vec![NewFile::of("program", path, content)]
     }
 }

@@ -4,6 +4,8 @@
 //!     interpreter ──Step──> Ahead ──Stretch──> channel ──> Walk        one thread before, one after
 //! ```
 
+use super::line_table::LineTable;
+use super::words::Words;
 use std::ops::Range;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use trueaxis_machine::axis::Command;
@@ -18,8 +20,8 @@ const NODES: usize = 4096;
 /// Steps of a stretch that lead nowhere are not gathered for ever.
 const STEPS: usize = 4096;
 
-/// Stretches that wait: each some 1 MB.
-const WAITING: usize = 4;
+/// Stretches that wait: each some 6 MB with the words of its lines.
+const WAITING: usize = 2;
 
 /// Some steps of the program that follow each other, with one tool.
 #[derive(Debug, Default)]
@@ -39,6 +41,8 @@ pub(super) struct Ahead {
     pub nodes: Range<usize>,
     /// Of a rapid: the axes that it leads to where a cut begins.
     pub begins_cut: AxisSet,
+    /// The words of its line, if it moves and is of the program itself.
+    pub words: Option<Box<Words>>,
     /// Why it cannot be executed.
     pub fault: Option<Fault>,
 }
@@ -72,6 +76,7 @@ fn lead_to_cut(steps: &mut [Ahead]) {
 /// Gathers what the interpreter hands out.
 pub(super) struct Gather<'m> {
     nominal: AxisPath<'m>,
+    table: &'m LineTable<'m>,
     stretch: Stretch,
     /// `None` as soon as no receiver is left.
     to: Option<SyncSender<Stretch>>,
@@ -80,9 +85,9 @@ pub(super) struct Gather<'m> {
 
 impl<'m> Gather<'m> {
     /// With the end at which the stretches come out.
-    pub fn along(nominal: AxisPath<'m>) -> (Self, Receiver<Stretch>) {
+    pub fn along(nominal: AxisPath<'m>, table: &'m LineTable<'m>) -> (Self, Receiver<Stretch>) {
         let (to, from) = sync_channel(WAITING);
-        (Self { nominal, stretch: Stretch::default(), to: Some(to), points: 0 }, from)
+        (Self { nominal, table, stretch: Stretch::default(), to: Some(to), points: 0 }, from)
     }
 
     fn send(&mut self) {
@@ -118,7 +123,13 @@ impl Follower for Gather<'_> {
         let nodes = from..nodes.len();
         self.points += nodes.len() as u64;
         let begins_cut = AxisSet::default();
-        self.stretch.steps.push(Ahead { step, begin, nodes, begins_cut, fault });
+        let words = match &step {
+            Step::Move(m) if m.origin.program == 0 && m.origin.line > 0 => {
+                Some(Box::new(self.table.words(m.origin.line)))
+            }
+            _ => None,
+        };
+        self.stretch.steps.push(Ahead { step, begin, nodes, begins_cut, words, fault });
         if cuts {
             lead_to_cut(&mut self.stretch.steps);
         }

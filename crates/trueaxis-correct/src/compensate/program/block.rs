@@ -3,9 +3,9 @@
 use super::computed::{Expression, Resting};
 use super::number::{Grid, Of, Unit};
 use super::refuse::refusal;
-use super::stand::Stand;
 use super::text::Edits;
 use super::words::{Word, Words};
+use trueaxis_geometry::Vec3;
 use trueaxis_machine::axis::Command;
 use trueaxis_motion::axis_path::{AxisPath, Fault, Straight};
 use trueaxis_nc::Control;
@@ -55,8 +55,9 @@ pub(super) struct Written {
     pub piece: usize,
     /// Its part of the way.
     pub share: f64,
-    /// Where the axes shall stand at its end.
+    /// Where the axes shall stand at its end, and where the control believes the tip to be then.
     pub command: Command,
+    pub tip: Vec3,
 }
 
 /// What the control makes of a piece.
@@ -155,7 +156,7 @@ impl Block<'_> {
                 rounded[i] += self.rotary_rounding(axis, at, step.piece).to_radians();
             }
         }
-        match control.place(Stand::of(control, &step.command).tip, &mut rounded) {
+        match control.place(step.tip, &mut rounded) {
             true => path.words_of(&rounded, self.m.coordinates),
             false => exact,
         }
@@ -191,7 +192,8 @@ impl Block<'_> {
         if self.only.is_some_and(|only| !only.contains(axis)) {
             return self.stays(axis, m);
         }
-        let word = self.words.axes[axis as usize].clone().filter(|_| piece == 0);
+        let words = self.words;
+        let word = words.axes[axis as usize].as_ref().filter(|_| piece == 0);
         let Some(word) = word else {
             if piece == 0 && self.m.named.contains(axis) && !self.is_circle() {
                 return Err(self.no_word(axis));
@@ -229,13 +231,13 @@ impl Block<'_> {
             if self.grid.same(wanted, old, of) {
                 (old, None)
             } else {
-                let offset = self.offset(axis, &word, old)?;
+                let offset = self.offset(axis, word, old)?;
                 (value, Some(value - offset))
             }
         };
         m.target[axis] = value;
         match shown {
-            Some(shown) => self.put_number(&word, shown, of),
+            Some(shown) => self.put_number(word, shown, of),
             None => Ok(()),
         }
     }
@@ -328,7 +330,7 @@ impl Block<'_> {
             m.direction = here;
             return Ok(());
         }
-        let words: Vec<Option<Word>> = self.words.vector.to_vec();
+        let words = &self.words.vector;
         if here.is_some() {
             let fits = words.iter().zip(old).all(|(word, part)| match word {
                 Some(word) => word.value.is_some_and(|v| (v - part).abs() < 1e-12),

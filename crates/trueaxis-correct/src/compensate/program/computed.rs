@@ -146,9 +146,9 @@ impl Computed {
     }
 
     /// The words with the values of what is computed.
-    pub fn evaluate(&self, mut words: Words, source: &[u8], unit: Unit) -> Words {
+    pub fn evaluate(&self, words: &mut Words, source: &[u8], unit: Unit) {
         if words.torn {
-            return words;
+            return;
         }
         let mut last = words.behind_axes;
         for part in &self.parts {
@@ -170,7 +170,6 @@ impl Computed {
         }
         words.behind_axes = last;
         words.end = words.end.max(last.unwrap_or(0));
-        words
     }
 
     /// Whether a part of the block stands in a range.

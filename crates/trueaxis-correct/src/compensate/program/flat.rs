@@ -198,7 +198,7 @@ impl Flat<'_> {
         self.restate(program, &words, told, &mut edits);
         let was_blank = source[line.clone()].iter().all(u8::is_ascii_whitespace);
         let changed = !edits.is_empty();
-        let text = edits.apply(source, line.clone());
+        let text = edits.applied(source, line.clone());
         let says = text.iter().any(|b| !b.is_ascii_whitespace() && !b.is_ascii_digit());
         if says || (was_blank && !changed) {
             let text = text.trim_ascii_start();

@@ -201,30 +201,38 @@ impl Found {
         same(to - 1, last) && (end_only || to - from == 1 || same(*from, first))
     }
 
-    /// A line was executed; its stands begin with this one.
-    pub(super) fn executed(&mut self, line: u32, from: usize) {
+    /// The program is written: what only the walk asks for goes.
+    pub(super) fn end(&mut self) {
+        self.led = Vec::new();
+    }
+
+    /// A line was executed; its pieces begin with this one.
+    pub(super) fn executed(&mut self, line: u32, first: usize) {
         let index = line as usize;
         if self.led.len() <= index {
             self.led.resize(index + 1, [0; 2]);
         }
         if self.led[index] == [0; 2] {
-            self.led[index] = [from as u32, self.stands.len() as u32];
+            let from = self.wants.get(first).map_or(self.stands.len() as u32, |want| want.from);
+            self.led[index] = [from, self.stands.len() as u32];
         }
     }
 
     /// Stands of a piece; those of one line follow each other.
-    pub(super) fn want(&mut self, want: Want, stands: impl Iterator<Item = Stand>) {
+    pub(super) fn want(&mut self, want: Want, stands: impl ExactSizeIterator<Item = Stand>) {
         let same = |w: &&mut Want| w.line == want.line && w.piece == want.piece;
         if let Some(last) = self.wants.last_mut().filter(same) {
             self.stands.extend(stands.skip(1));
             last.to = self.stands.len() as u32;
             return;
         }
-        let from = self.stands.len() as u32;
         // Of a rapid move only the end counts.
-        let keep = stands.collect::<Vec<_>>();
-        let skip = if want.end_only { keep.len() - 1 } else { 0 };
-        self.stands.extend_from_slice(&keep[skip..]);
+        let skip = if want.end_only { stands.len() - 1 } else { 0 };
+        let mut stands = stands.skip(skip).peekable();
+        // A piece mostly begins where the one before it ends: that stand is kept once.
+        let begins = !want.end_only && stands.peek() == self.stands.last();
+        let from = self.stands.len() as u32 - u32::from(begins);
+        self.stands.extend(stands.skip(usize::from(begins)));
         self.wants.push(Want { from, to: self.stands.len() as u32, ..want });
     }
 }

@@ -101,6 +101,10 @@ impl Cut<'_> {
     /// The samples at which straight pieces end so that no place between them is missed by more
     /// than the residual; the first one is where the move begins.
     pub fn ends(&self, samples: &[Sample]) -> Vec<usize> {
+        // Nothing lies between two samples.
+        if samples.len() == 2 {
+            return vec![1];
+        }
         let mut ends = Vec::new();
         for (from, to) in self.stretches(samples).into_iter().rev() {
             let longest = self.longest(samples, (from, to));

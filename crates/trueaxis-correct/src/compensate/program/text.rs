@@ -1,26 +1,45 @@
 //! The text that is rewritten line by line; all other bytes stay.
 
+use super::line_table::LineTable;
 use super::number::Unit;
 use super::words::Words;
+use std::collections::BTreeMap;
 use std::ops::Range;
-use trueaxis_nc::{Control, Program};
+use trueaxis_nc::Control;
 
 /// What became of a line.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 enum Line {
     /// Not executed, or without a move.
     AsItWas,
     /// Executed, and nothing had to be changed.
     Seen,
-    /// Other text, with its line ends; how many lines, and how many of them stand before the block.
-    Changed(Box<[u8]>, u32, u32),
+    /// Other text.
+    Changed,
 }
 
-/// A program that is being rewritten.
+/// Other text for a line, with its line ends; how many lines, and how many of them stand before the block.
+#[derive(Debug, Clone, PartialEq)]
+struct Change {
+    text: Box<[u8]>,
+    count: u32,
+    first: u32,
+}
+
+/// A program that is being rewritten: its new text grows line by line, in the order of the lines.
 pub(super) struct Text<'p> {
-    program: &'p Program,
-    starts: Vec<usize>,
+    table: &'p LineTable<'p>,
     lines: Vec<Line>,
+    /// The new text of the first lines, where each of them begins in it, and its new number.
+    out: Vec<u8>,
+    places: Vec<usize>,
+    numbers: Vec<u32>,
+    /// The number of the next line of the new text.
+    number: u32,
+    /// Lines that were executed after later ones.
+    late: BTreeMap<usize, Change>,
+    /// Stands before the line with this index.
+    comment: (usize, String),
     /// The last line that was examined for what lasts, and what lasts there.
     modes: (usize, Modes),
     has_modes: bool,
@@ -41,10 +60,15 @@ impl Edits {
         self.0.is_empty()
     }
 
-    pub fn apply(mut self, source: &[u8], line: Range<usize>) -> Vec<u8> {
+    pub fn applied(self, source: &[u8], line: Range<usize>) -> Vec<u8> {
+        let mut out = Vec::with_capacity(line.len() + 32);
+        self.apply(source, line, &mut out);
+        out
+    }
+
+    fn apply(mut self, source: &[u8], line: Range<usize>, out: &mut Vec<u8>) {
         // Stable: what is put at one place keeps its order.
         self.0.sort_by_key(|(range, _)| range.start);
-        let mut out = Vec::with_capacity(line.len() + 32);
         let mut at = line.start;
         for (range, text) in self.0 {
             out.extend_from_slice(&source[at..range.start.max(at)]);
@@ -52,7 +76,6 @@ impl Edits {
             at = range.end.max(at);
         }
         out.extend_from_slice(&source[at..line.end]);
-        out
     }
 }
 
@@ -85,71 +108,54 @@ fn has_modes(source: &[u8]) -> bool {
 }
 
 impl<'p> Text<'p> {
-    pub fn of(program: &'p Program) -> Self {
-        let source = program.source();
-        let mut starts = vec![0];
-        for (i, byte) in source.iter().enumerate() {
-            let ends = match byte {
-                b'\n' => true,
-                b'\r' => source.get(i + 1) != Some(&b'\n'),
-                _ => false,
-            };
-            if ends {
-                starts.push(i + 1);
-            }
-        }
-        let lines = vec![Line::AsItWas; starts.len()];
-        let has_modes = has_modes(source);
-        Self { program, starts, lines, modes: (0, Modes::default()), has_modes, executed: false }
+    /// With a comment after its heading.
+    pub fn of(table: &'p LineTable<'p>, comment: String) -> Self {
+        let (count, has_modes) = (table.count(), has_modes(table.source()));
+        let mut text = Self {
+            table,
+            lines: vec![Line::AsItWas; count],
+            out: Vec::with_capacity(table.source().len() + 256),
+            places: Vec::with_capacity(count),
+            numbers: Vec::with_capacity(count),
+            number: 1,
+            late: BTreeMap::new(),
+            comment: (0, comment),
+            modes: (0, Modes::default()),
+            has_modes,
+            executed: false,
+        };
+        text.comment.0 = text.heading();
+        text
     }
 
     pub fn control(&self) -> Control {
-        self.program.dialect().control
+        self.table.program().dialect().control
     }
 
     pub fn source(&self) -> &'p [u8] {
-        self.program.source()
-    }
-
-    /// The bytes of a line from 1, without its end.
-    fn line(&self, line: u32) -> Range<usize> {
-        let index = line as usize - 1;
-        let source = self.source();
-        let start = self.starts.get(index).copied().unwrap_or(source.len());
-        let mut end = self.starts.get(index + 1).copied().unwrap_or(source.len());
-        while end > start && matches!(source[end - 1], b'\n' | b'\r') {
-            end -= 1;
-        }
-        start..end
-    }
-
-    fn ending(&self, line: u32) -> &'p [u8] {
-        let next = self.starts.get(line as usize).copied().unwrap_or(self.source().len());
-        &self.source()[self.line(line).end..next]
+        self.table.source()
     }
 
     /// A block is executed.
     pub fn execute(&mut self, block: &Range<usize>) {
         self.executed = true;
         if self.has_modes {
-            let (source, dialect) = (self.program.source(), self.program.dialect());
+            let (source, dialect) = (self.source(), self.table.program().dialect());
             self.modes.1.follow(&Words::read(source, dialect, block.clone()));
         }
     }
 
-    /// The words of a line from 1, lengths in mm, and what lasts there.
-    pub fn words(&mut self, line: u32) -> (Words, Modes) {
-        let (source, dialect) = (self.program.source(), self.program.dialect());
+    /// The words of a line from 1, lengths in mm, and what lasts there; they are read already.
+    pub fn words(&mut self, line: u32, mut read: Box<Words>) -> (Box<Words>, Modes) {
         let index = line as usize;
         if self.has_modes && !self.executed && index > self.modes.0 {
             for number in self.modes.0 + 1..=index {
-                let words = Words::read(source, dialect, self.line(number as u32));
-                self.modes.1.follow(&words);
+                self.modes.1.follow(&self.table.words(number as u32));
             }
             self.modes.0 = index;
         }
-        let words = Words::read(source, dialect, self.line(line));
-        (words.scaled(self.modes.1.unit), self.modes.1)
+        read.scale(self.modes.1.unit);
+        (read, self.modes.1)
     }
 
     /// The line was executed and stays as it is; `false` if it was changed before.
@@ -158,7 +164,7 @@ impl<'p> Text<'p> {
         match at {
             Line::AsItWas => *at = Line::Seen,
             Line::Seen => {}
-            Line::Changed(..) => return false,
+            Line::Changed => return false,
         }
         true
     }
@@ -166,27 +172,87 @@ impl<'p> Text<'p> {
     /// The line is changed and others follow it; `false` if it was executed before with another
     /// outcome.
     pub fn change(&mut self, line: u32, edits: Edits, [before, further]: [&[String]; 2]) -> bool {
-        let ending = self.ending(line);
-        let between: &[u8] = if ending.is_empty() { b"\n" } else { ending };
-        let mut text = Vec::new();
-        for first in before {
-            text.extend_from_slice(first.as_bytes());
-            text.extend_from_slice(between);
+        let index = line as usize - 1;
+        let is_first = self.lines[index] == Line::AsItWas;
+        if !is_first && self.lines[index] == Line::Seen {
+            return false;
         }
-        text.extend(edits.apply(self.source(), self.line(line)));
-        for more in further {
-            text.extend_from_slice(between);
-            text.extend_from_slice(more.as_bytes());
-        }
-        text.extend_from_slice(ending);
+        self.lines[index] = Line::Changed;
         let first = before.len() as u32;
-        let changed = Line::Changed(text.into(), first + 1 + further.len() as u32, first);
-        let at = &mut self.lines[line as usize - 1];
-        match at {
-            Line::AsItWas => *at = changed,
-            same => return *same == changed,
+        let count = first + 1 + further.len() as u32;
+        if index >= self.places.len() {
+            self.reach(index);
+            let mut out = std::mem::take(&mut self.out);
+            self.put(line, edits, [before, further], &mut out);
+            self.out = out;
+            self.done(count, first);
+            return true;
         }
-        true
+        let mut text = Vec::new();
+        self.put(line, edits, [before, further], &mut text);
+        if is_first {
+            self.late.insert(index, Change { text: text.into(), count, first });
+            return true;
+        }
+        *text == *self.changed(index)
+    }
+
+    /// The changed line, and the others.
+    fn put(&self, line: u32, edits: Edits, [before, further]: [&[String]; 2], out: &mut Vec<u8>) {
+        let ending = self.table.ending(line);
+        let between: &[u8] = if ending.is_empty() { b"\n" } else { ending };
+        for first in before {
+            out.extend_from_slice(first.as_bytes());
+            out.extend_from_slice(between);
+        }
+        edits.apply(self.source(), self.table.line(line), out);
+        for more in further {
+            out.extend_from_slice(between);
+            out.extend_from_slice(more.as_bytes());
+        }
+        out.extend_from_slice(ending);
+    }
+
+    /// The new text of a line that was changed.
+    fn changed(&self, index: usize) -> &[u8] {
+        if let Some(change) = self.late.get(&index) {
+            return &change.text;
+        }
+        let end = self.places.get(index + 1).copied().unwrap_or(self.out.len());
+        let text = &self.out[self.places[index]..end];
+        // The comment is no part of the line before it.
+        let comment = if self.comment.0 == index + 1 { self.heading_comment() } else { Vec::new() };
+        text.strip_suffix(&comment[..]).unwrap_or(text)
+    }
+
+    fn heading_comment(&self) -> Vec<u8> {
+        let ending = if self.table.count() == 1 { b"\n" } else { self.table.ending(1) };
+        [self.comment.1.as_bytes(), ending].concat()
+    }
+
+    /// The lines before an index stay as they were.
+    fn reach(&mut self, index: usize) {
+        loop {
+            let at = self.places.len();
+            if at == self.comment.0 {
+                let comment = self.heading_comment();
+                self.out.extend_from_slice(&comment);
+                self.number += 1;
+            }
+            self.places.push(self.out.len());
+            if at >= index {
+                return;
+            }
+            let line = &self.table.source()[self.table.whole(at)];
+            self.out.extend_from_slice(line);
+            self.done(1, 0);
+        }
+    }
+
+    /// A line is written: as so many lines, so many of them before the block.
+    fn done(&mut self, count: u32, first: u32) {
+        self.numbers.push(self.number + first);
+        self.number += count;
     }
 
     /// Whether the line was executed already.
@@ -194,43 +260,38 @@ impl<'p> Text<'p> {
         self.lines[line as usize - 1] != Line::AsItWas
     }
 
-    /// The new text with a comment after its heading, and the new number of each line.
-    pub fn finish(self, comment: &str) -> (Vec<u8>, Vec<u32>) {
-        let heading = self.heading();
-        let ending: &[u8] = match self.starts.len() {
-            1 => b"\n",
-            _ => self.ending(1),
-        };
-        let mut out = Vec::with_capacity(self.source().len() + 256);
-        let mut numbers = Vec::with_capacity(self.lines.len());
-        let mut number = 1;
-        for (i, line) in self.lines.iter().enumerate() {
-            if i == heading {
-                out.extend_from_slice(comment.as_bytes());
-                out.extend_from_slice(ending);
-                number += 1;
-            }
-            let first = if let Line::Changed(.., first) = line { *first } else { 0 };
-            numbers.push(number + first);
-            match line {
-                Line::Changed(text, count, _) => {
-                    out.extend_from_slice(text);
-                    number += count;
-                }
-                Line::AsItWas | Line::Seen => {
-                    let end = self.starts.get(i + 1).copied().unwrap_or(self.source().len());
-                    out.extend_from_slice(&self.source()[self.starts[i]..end]);
-                    number += 1;
-                }
+    /// The new text, and the new number of each line.
+    pub fn finish(mut self) -> (Vec<u8>, Vec<u32>) {
+        if self.places.len() < self.table.count() {
+            self.reach(self.table.count());
+        }
+        let mut shift = 0;
+        let (mut out, mut from) = (Vec::new(), 0);
+        if self.late.is_empty() {
+            return (self.out, self.numbers);
+        }
+        for (index, number) in self.numbers.iter_mut().enumerate() {
+            *number += shift;
+            if let Some(change) = self.late.get(&index) {
+                *number += change.first;
+                shift += change.count - 1;
             }
         }
-        (out, numbers)
+        for (index, change) in &self.late {
+            // They were written as they were.
+            let place = self.places[*index];
+            out.extend_from_slice(&self.out[from..place]);
+            out.extend_from_slice(&change.text);
+            from = place + self.table.whole(*index).len();
+        }
+        out.extend_from_slice(&self.out[from..]);
+        (out, self.numbers)
     }
 
     /// Lines that have to stand first: tape marks, program numbers and names.
     fn heading(&self) -> usize {
         let is_heading = |line: usize| {
-            let range = self.line(line as u32 + 1);
+            let range = self.table.line(line as u32 + 1);
             let text = String::from_utf8_lossy(&self.source()[range]).trim().to_ascii_uppercase();
             let number =
                 |t: &str| t.starts_with('O') && t[1..].starts_with(|c: char| c.is_ascii_digit());
@@ -240,6 +301,6 @@ impl<'p> Text<'p> {
                 || number(&text)
                 || text.contains("BEGIN PGM")
         };
-        (0..self.starts.len().min(20)).find(|i| !is_heading(*i)).unwrap_or(0)
+        (0..self.table.count().min(20)).find(|i| !is_heading(*i)).unwrap_or(0)
     }
 }

@@ -5,8 +5,9 @@ use super::stand::Stand;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
+use trueaxis_machine::axis::Travel;
 use trueaxis_motion::{
-    AxisWatch, Batch, Densify, IssueList, Observer, Options, SetUp, Timing, simulate,
+    Batch, Densify, IssueKind, IssueList, Log, Observer, Options, SetUp, Timing, simulate,
 };
 use trueaxis_nc::Program;
 
@@ -67,7 +68,7 @@ pub struct Proof {
     pub worst: Vec<BlockResidual>,
     /// Pieces compared at their ends.
     pub compared: u64,
-    /// Axes that leave their travel or go too fast.
+    /// Axes that leave their travel.
     pub issues: IssueList,
     /// What was found while the written program was read.
     pub problems: Diagnostics,
@@ -86,74 +87,120 @@ pub(super) fn prove(
     (densify, limits): (Densify, [f64; 2]),
 ) -> Proof {
     let [was, is] = programs;
-    let options = Options { densify, ..Options::default() };
+    // Places and travel count, not times.
+    let options = Options { densify, timing: Timing::Untimed, ..Options::default() };
     let mut before = Compare::of(found, numbers, None);
     let mut after = Compare::of(found, numbers, Some(limits));
-    let mut watch = AxisWatch::on(machine);
-    // Of the program as it was places count, not times.
-    let places = Options { timing: Timing::Untimed, ..options.clone() };
+    let mut watch = TravelWatch { machine, log: Log::default() };
     let (_, run) = rayon::join(
-        || simulate(machine, was, setup, &places, &mut [&mut before]),
+        || simulate(machine, was, setup, &options, &mut [&mut before]),
         || simulate(machine, is, setup, &options, &mut [&mut after, &mut watch]),
     );
-    let mut worst = before.rows;
-    for (row, other) in worst.iter_mut().zip(&after.rows) {
-        (row.tip_after_mm, row.axis_after_rad) = (other.tip_before_mm, other.axis_before_rad);
-        row.line = row.line.max(other.line);
-    }
-    worst.retain(|row| row.line > 0);
-    worst.sort_by(|a, b| {
-        let left = b.tip_after_mm.total_cmp(&a.tip_after_mm);
-        left.then(b.tip_before_mm.total_cmp(&a.tip_before_mm))
-    });
-    worst.truncate(WORST);
     Proof {
         before: before.residual,
         after: after.residual,
-        worst,
+        worst: worst(&before.rows, &after.rows),
         compared: after.compared,
         issues: IssueList::of([watch.log]),
         problems: run.problems,
     }
 }
 
+/// Watches the travel of the axes.
+struct TravelWatch<'m> {
+    machine: &'m Machine,
+    log: Log,
+}
+
+impl Observer for TravelWatch<'_> {
+    fn path(&mut self, batch: &Batch<'_>) {
+        for (node, stamp) in batch.nodes.iter().zip(batch.stamps) {
+            for (axis, q) in node.command.iter().enumerate().take(self.machine.axes().len()) {
+                let travel = self.machine.axes()[axis].travel;
+                if let Travel::Between(low, high) = travel
+                    && !travel.contains(*q)
+                {
+                    let limit = if *q > high { high } else { low };
+                    self.log.note(IssueKind::OverTravel { axis }, node, stamp, *q, limit);
+                }
+            }
+        }
+    }
+}
+
+/// The worst blocks of both runs; of equal ones those that come first.
+fn worst(before: &[Missed], after: &[Missed]) -> Vec<BlockResidual> {
+    let mut worst: Vec<BlockResidual> = Vec::with_capacity(WORST + 1);
+    for (line, (before, after)) in before.iter().zip(after).enumerate() {
+        if *before == UNSEEN && *after == UNSEEN {
+            continue;
+        }
+        let row = BlockResidual {
+            line: line as u32,
+            tip_before_mm: before[0].max(0.0),
+            tip_after_mm: after[0].max(0.0),
+            axis_before_rad: before[1].max(0.0),
+            axis_after_rad: after[1].max(0.0),
+        };
+        let is_before = |other: &BlockResidual| {
+            let by = other.tip_after_mm.total_cmp(&row.tip_after_mm);
+            by.then(other.tip_before_mm.total_cmp(&row.tip_before_mm)).is_ge()
+        };
+        let at = worst.partition_point(is_before);
+        if at < WORST {
+            worst.insert(at, row);
+            worst.truncate(WORST);
+        }
+    }
+    worst
+}
+
+/// The largest deviations in a block: of the tip, mm, and of the tool axis, rad.
+type Missed = [f64; 2];
+
+/// Of a block that was not passed.
+const UNSEEN: Missed = [-1.0; 2];
+
+/// The line of a want in the program that is simulated.
+fn simulated(want: &Want, numbers: Option<&[u32]>) -> u32 {
+    numbers.map_or(want.line, |numbers| numbers[want.line as usize - 1] + want.piece)
+}
+
 struct Compare<'f> {
     found: &'f Found,
     /// Of the written program: what its tip, mm, and its axis, rad, may miss between the ends of blocks.
     limits: Option<[f64; 2]>,
-    /// The wants of each line of the simulated program: the first and how many.
-    at_line: Vec<(u32, u32)>,
+    /// The first want of each line of the simulated program, counted from 1; 0 if there is none.
+    at_line: Vec<u32>,
+    /// Of the written program: the lines that those of the program as it was became.
+    numbers: Option<&'f [u32]>,
     line: u32,
     ended: bool,
-    rows: Vec<BlockResidual>,
+    rows: Vec<Missed>,
     residual: Residual,
     compared: u64,
 }
 
 impl<'f> Compare<'f> {
-    fn of(found: &'f Found, numbers: &[u32], limits: Option<[f64; 2]>) -> Self {
-        let mut at_line: Vec<(u32, u32)> = Vec::new();
+    fn of(found: &'f Found, numbers: &'f [u32], limits: Option<[f64; 2]>) -> Self {
+        let numbers_of_run = limits.map(|_| numbers);
+        let mut at_line = vec![0; numbers.len() + 1];
         for (i, want) in found.wants.iter().enumerate() {
-            let number = match limits {
-                Some(_) => numbers[want.line as usize - 1] + want.piece,
-                None => want.line,
-            } as usize;
+            let number = simulated(want, numbers_of_run) as usize;
             if at_line.len() <= number {
-                at_line.resize(number + 1, (0, 0));
+                at_line.resize(number + 1, 0);
             }
-            let entry = &mut at_line[number];
-            match entry.1 {
-                0 => *entry = (i as u32, 1),
-                // A block that is executed again goes to the same places.
-                count if (entry.0 + count) as usize == i => entry.1 += 1,
-                _ => {}
+            // A block that is executed again goes to the same places.
+            if at_line[number] == 0 {
+                at_line[number] = i as u32 + 1;
             }
         }
-        let rows = vec![BlockResidual::default(); numbers.len() + 1];
+        let rows = vec![UNSEEN; numbers.len() + 1];
         Self {
             found,
             limits,
             at_line,
+            numbers: numbers_of_run,
             line: 0,
             ended: false,
             rows,
@@ -163,8 +210,11 @@ impl<'f> Compare<'f> {
     }
 
     fn wants(&self, line: u32) -> &'f [Want] {
-        let (from, count) = self.at_line.get(line as usize).copied().unwrap_or((0, 0));
-        &self.found.wants[from as usize..(from + count) as usize]
+        let first = self.at_line.get(line as usize).copied().unwrap_or(0);
+        let Some(from) = first.checked_sub(1) else { return &[] };
+        let rest = &self.found.wants[from as usize..];
+        let others = |want: &Want| simulated(want, self.numbers) != line;
+        &rest[..rest.iter().position(others).unwrap_or(rest.len())]
     }
 
     /// How far a place is from the way of a piece.
@@ -208,9 +258,8 @@ impl<'f> Compare<'f> {
 
     fn row(&mut self, line: u32, [tip, axis]: [f64; 2]) {
         let row = &mut self.rows[line as usize];
-        row.line = line;
-        row.tip_before_mm = row.tip_before_mm.max(tip);
-        row.axis_before_rad = row.axis_before_rad.max(axis);
+        // Not a number counts as passed.
+        *row = [row[0].max(0.0).max(tip), row[1].max(0.0).max(axis)];
     }
 }
 

@@ -8,7 +8,9 @@ use super::block::{Block, Written};
 use super::computed::{Computed, free_locals};
 use super::correct::Corrector;
 use super::found::{Found, Want};
-use super::number::{Grid, Of};
+use super::guard;
+use super::line_table::LineTable;
+use super::number::{Grid, Of, Unit};
 use super::refuse::{again, cone, refusal};
 use super::stand::{Cut, Sample, Stand};
 use super::text::{Edits, Modes, Text};
@@ -18,9 +20,8 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_motion::axis_path::{AxisPath, Fault};
 use trueaxis_motion::{Densify, Node, SetUp};
-use trueaxis_nc::Program;
 use trueaxis_nc::moves::{
-    Arc, AxisSet, Coordinates, Event, FeedMode, Move, MoveKind, Origin, Step,
+    Arc, AxisSet, CompensationSide, Coordinates, Event, FeedMode, Move, MoveKind, Origin, Step,
 };
 
 const TO_MACHINE_ZERO: &str = "rapid to machine coordinates";
@@ -45,12 +46,16 @@ pub(super) struct Walk<'w> {
     pub tip_followed: Option<u32>,
     /// The program or the set-up gave the control a tool length.
     pub length_stated: bool,
+    /// The program adds a radius that is not 0 to its contour.
+    pub radius_added: bool,
     /// What blocks compute.
     computed: Computed,
     /// Local parameters of Klartext that the program does not use.
-    locals: Vec<u16>,
+    locals: std::sync::Arc<[u16]>,
     /// The feed that the next block has to state again.
     feed_again: Option<f64>,
+    /// In mm and in inches.
+    grids: [Grid; 2],
     /// Circles may stay circles.
     arcs: bool,
     /// A circle became lines, and the next one may rely on its G2 or G3.
@@ -59,6 +64,8 @@ pub(super) struct Walk<'w> {
     exact: Command,
     /// The written program stands where nothing was corrected: the next block leads from there.
     approaching: bool,
+    /// Where the move before ended by the program as it is, with what was commanded there; none after a change of the control.
+    before: Option<(Command, Sample)>,
 }
 
 /// Where the axes go in a move of the program as it is.
@@ -81,10 +88,11 @@ const ENDS: Densify = Densify::Places {
 impl<'w> Walk<'w> {
     pub fn new(
         machine: &'w Machine,
-        program: &'w Program,
+        table: &'w LineTable<'w>,
         setup: &'w SetUp,
         options: &'w ProgramOptions,
     ) -> Result<Self, Fault> {
+        let (source, control) = (table.source(), table.program().dialect().control);
         let corrector = corrector(machine, options, Origin::default())?;
         Ok(Self {
             options,
@@ -92,20 +100,23 @@ impl<'w> Walk<'w> {
             setup,
             corrector,
             written: AxisPath::new(machine, setup, ENDS, 0.01),
-            text: Text::of(program),
+            text: Text::of(table, guard::comment(&options.mark, control)),
             found: Found::of(machine),
             fault: None,
             last: None,
             vectors: false,
             tip_followed: None,
             length_stated: false,
-            computed: Computed::of(program.dialect().control),
-            locals: free_locals(program.source(), program.dialect().control),
+            radius_added: false,
+            computed: Computed::of(control),
+            locals: free_locals(source, control).into(),
             feed_again: None,
+            grids: [Unit::Millimetre, Unit::Inch].map(|u| Grid::of(options.increments, u)),
             arcs: true,
             circle_gone: false,
             exact: Command::default(),
             approaching: true,
+            before: None,
         })
     }
 
@@ -121,19 +132,20 @@ impl<'w> Walk<'w> {
     }
 
     /// Writes a stretch of the program.
-    pub fn take(&mut self, stretch: &Stretch) {
+    pub fn take(&mut self, mut stretch: Stretch) {
         if let Some(first) = stretch.steps.first() {
             let places = stretch.nodes.iter().map(|node| node.command);
             self.corrector.prepare(places, &first.begin);
         }
-        for ahead in &stretch.steps {
+        for ahead in &mut stretch.steps {
             if self.fault.is_some() {
                 return;
             }
+            let words = ahead.words.take();
             let done = match (&ahead.fault, &ahead.step) {
                 (Some(fault), _) => Err(fault.clone()),
                 (None, Step::Event(event, origin)) => self.event(&ahead.step, event, *origin),
-                (None, Step::Move(m)) => self.travel(m, ahead, &stretch.nodes),
+                (None, Step::Move(m)) => self.travel(m, (ahead, words), &stretch.nodes),
             };
             self.fault = done.err().or_else(|| self.written.faults.pop());
         }
@@ -141,6 +153,9 @@ impl<'w> Walk<'w> {
 
     fn event(&mut self, step: &Step, event: &Event, origin: Origin) -> Result<(), Fault> {
         self.written.take(step, &mut |_| {});
+        if !matches!(event, Event::Block { .. } | Event::Computed { .. }) {
+            self.before = None;
+        }
         self.computed.follow(event, self.text.source(), origin.program == 0);
         match event {
             Event::ToolChange(number) => {
@@ -171,13 +186,21 @@ impl<'w> Walk<'w> {
                     hint: "correct the place alone: --position-only",
                 });
             }
+            Event::Compensation { side, radius_mm } => {
+                self.radius_added |= *side != CompensationSide::Off && *radius_mm != 0.0;
+            }
             Event::ToolLength(length) => self.length_stated |= length.0.iter().any(|l| *l != 0.0),
             _ => {}
         }
         Ok(())
     }
 
-    fn travel(&mut self, m: &Move, ahead: &Ahead, nodes: &[Node]) -> Result<(), Fault> {
+    fn travel(
+        &mut self,
+        m: &Move,
+        (ahead, read): (&Ahead, Option<Box<Words>>),
+        nodes: &[Node],
+    ) -> Result<(), Fault> {
         let way = Way {
             begin: &ahead.begin,
             nodes: &nodes[ahead.nodes.clone()],
@@ -185,57 +208,34 @@ impl<'w> Walk<'w> {
         };
         self.vectors |= m.direction.is_some();
         let begins_cut = (m.kind == MoveKind::Rapid).then_some(ahead.begins_cut);
-        self.written_by(m, &way, begins_cut)?;
-        let words = (m.origin.program == 0 && m.origin.line > 0).then(|| self.words(m.origin.line));
+        let words = read.map(|read| self.words(m.origin.line, read));
+        let known = words.as_ref().map(|(words, modes)| (&**words, *modes));
+        self.written_by(m, &way, known, begins_cut)?;
         let incremental = words.as_ref().is_some_and(|(_, modes)| modes.incremental);
-        self.computed.moved(m, words.as_ref().map(|(words, _)| words), incremental);
+        self.computed.moved(m, known.map(|(words, _)| words), incremental);
         Ok(())
     }
 
     /// The words of a line of the program, with the values of those that are computed.
-    fn words(&mut self, line: u32) -> (Words, Modes) {
-        let (words, modes) = self.text.words(line);
-        (self.computed.evaluate(words, self.text.source(), modes.unit), modes)
+    fn words(&mut self, line: u32, read: Box<Words>) -> (Box<Words>, Modes) {
+        let (mut words, modes) = self.text.words(line, read);
+        self.computed.evaluate(&mut words, self.text.source(), modes.unit);
+        (words, modes)
     }
 
     fn written_by(
         &mut self,
         m: &Move,
         way: &Way<'_>,
+        words: Option<(&Words, Modes)>,
         begins_cut: Option<AxisSet>,
     ) -> Result<(), Fault> {
-        match self.why_left(m, way.nodes) {
+        match why_left(m, way.nodes, words.map(|(words, _)| words)) {
             Some(why) => self.leave(m, why),
             None if begins_cut == Some(AxisSet::default()) => self.leave(m, NO_CUT_BEGINS),
             None if self.written.turns_on_cone() => Err(cone(m.origin)),
-            None => self.rewrite(m, way, begins_cut),
+            None => self.rewrite(m, way, words, begins_cut),
         }
-    }
-
-    /// Why a block stays as it is, whatever the machine does.
-    fn why_left(&mut self, m: &Move, nodes: &[Node]) -> Option<&'static str> {
-        match (m.kind, m.coordinates) {
-            (MoveKind::Dwell { .. }, _) => Some(""),
-            (MoveKind::Align { .. }, _) => Some("the tool turns onto a swivelled plane"),
-            (MoveKind::Probe, _) => Some("probing"),
-            (MoveKind::RigidTap { .. }, _) => Some("rigid tapping"),
-            // Nothing moves.
-            _ if nodes.is_empty() => Some(""),
-            (MoveKind::Rapid, Coordinates::Machine) => Some(TO_MACHINE_ZERO),
-            (MoveKind::Rapid, _) if self.counts_from_machine_zero(m) => Some(TO_MACHINE_ZERO),
-            (MoveKind::Rapid, _) if self.is_reference(m) => Some("move to a reference point"),
-            _ => None,
-        }
-    }
-
-    /// FANUC's G53 comes as a place of the program frame.
-    fn counts_from_machine_zero(&mut self, m: &Move) -> bool {
-        let words = (m.origin.program == 0).then(|| self.text.words(m.origin.line).0);
-        words.is_some_and(|w| w.machine.is_some())
-    }
-
-    fn is_reference(&mut self, m: &Move) -> bool {
-        m.origin.program == 0 && self.text.words(m.origin.line).0.reference
     }
 
     fn leave(&mut self, m: &Move, why: &'static str) -> Result<(), Fault> {
@@ -272,14 +272,18 @@ impl<'w> Walk<'w> {
         self.corrector.moved(&from, self.written.command());
     }
 
-    /// Corrects a move and writes it; of a rapid only the words of some axes.
-    fn rewrite(&mut self, m: &Move, way: &Way<'_>, only: Option<AxisSet>) -> Result<(), Fault> {
+    /// Corrects a move and writes it; of a rapid only the words of some axes. Without words it is of a subprogram.
+    fn rewrite(
+        &mut self,
+        m: &Move,
+        way: &Way<'_>,
+        words: Option<(&Words, Modes)>,
+        only: Option<AxisSet>,
+    ) -> Result<(), Fault> {
         let whole = matches!(m.kind, MoveKind::Rapid | MoveKind::Thread { .. });
         let samples = self.samples(m, way, whole)?;
         self.exact = samples[samples.len() - 1].command;
-        if m.origin.program != 0 {
-            return self.in_subprogram(m, &samples);
-        }
+        let Some((words, modes)) = words else { return self.in_subprogram(m, &samples) };
         if self.last == Some(m.origin) {
             let message = "the block makes several moves, as a cycle or a chamfer does: they have \
                            no words of their own that could be corrected"
@@ -294,22 +298,21 @@ impl<'w> Walk<'w> {
         };
         let approaching = std::mem::take(&mut self.approaching);
         let first_time = !self.text.was_executed(m.origin.line);
-        let (words, modes) = self.words(m.origin.line);
         let end_only = whole || approaching;
         let leads = self.found.leads_as_before(m.origin.line, &samples, end_only);
-        if !first_time && self.computed.is_in_words(&words) {
+        if !first_time && self.computed.is_in_words(words) {
             return Err(again(m.origin));
         }
         self.found.led_elsewhere |= !first_time && !leads;
-        let grid = Grid::of(self.options.increments, modes.unit);
+        let grid = self.grids[usize::from(modes.unit == Unit::Inch)];
         let says_circle = words.motion.is_some() || !self.circle_gone;
         let kept = self.kept_circle(m, &samples, words.motion.is_some());
         let ends = if kept { vec![samples.len() - 1] } else { ends };
-        let locals = self.locals.clone();
+        let locals = std::sync::Arc::clone(&self.locals);
         let mut block = Block {
             m,
             source: self.text.source(),
-            words: &words,
+            words,
             incremental: modes.incremental,
             feed_unit: modes.feed_unit,
             control: self.text.control(),
@@ -318,7 +321,7 @@ impl<'w> Walk<'w> {
             arc: None,
             vectors: self.vectors,
             feed_again: self.feed_again.take(),
-            resting: self.computed.of_block(&words),
+            resting: self.computed.of_block(words),
             locals: &locals,
             edits: Edits::default(),
             before: Vec::new(),
@@ -337,14 +340,15 @@ impl<'w> Walk<'w> {
         block.pieces = ends.len();
         self.circle_gone &= block.arc.is_none();
         let turns_deg = self.turns_deg(m, way);
-        let (mut from, first_stand) = (0, self.found.stands.len());
+        let (mut from, first_want) = (0, self.found.wants.len());
         for (piece, to) in ends.iter().enumerate() {
             let share = samples[*to].u - samples[from].u;
             let way = (samples[from].command, samples[*to].command);
             if kept {
                 self.go_as_written(m);
             } else {
-                let step = Written { piece, share, command: way.1 };
+                let tip = samples[*to].believed.tip;
+                let step = Written { piece, share, command: way.1, tip };
                 let next = block.write(&self.written, &step, turns_deg)?;
                 self.feed_again = next.feed_again.or(self.feed_again);
                 self.go(&next.m);
@@ -372,7 +376,7 @@ impl<'w> Walk<'w> {
         let (edits, before, further) = (block.edits, block.before, block.further);
         let unchanged = edits.is_empty() && further.is_empty();
         let line = m.origin.line;
-        self.found.executed(line, first_stand);
+        self.found.executed(line, first_want);
         let fits = match unchanged {
             true => self.text.keep(line),
             false => self.text.change(line, edits, [&before, &further]),
@@ -482,6 +486,25 @@ impl<'w> Walk<'w> {
             }
         }
         Ok(())
+    }
+}
+
+/// Why a block stays as it is, whatever the machine does.
+fn why_left(m: &Move, nodes: &[Node], words: Option<&Words>) -> Option<&'static str> {
+    match (m.kind, m.coordinates) {
+        (MoveKind::Dwell { .. }, _) => Some(""),
+        (MoveKind::Align { .. }, _) => Some("the tool turns onto a swivelled plane"),
+        (MoveKind::Probe, _) => Some("probing"),
+        (MoveKind::RigidTap { .. }, _) => Some("rigid tapping"),
+        // Nothing moves.
+        _ if nodes.is_empty() => Some(""),
+        (MoveKind::Rapid, Coordinates::Machine) => Some(TO_MACHINE_ZERO),
+        // FANUC's G53 comes as a place of the program frame.
+        (MoveKind::Rapid, _) if words.is_some_and(|w| w.machine.is_some()) => Some(TO_MACHINE_ZERO),
+        (MoveKind::Rapid, _) if words.is_some_and(|w| w.reference) => {
+            Some("move to a reference point")
+        }
+        _ => None,
     }
 }
 

@@ -70,13 +70,12 @@ impl Words {
     }
 
     /// Lengths in mm.
-    pub fn scaled(mut self, unit: Unit) -> Self {
+    pub fn scale(&mut self, unit: Unit) {
         for axis in Axis::ALL.into_iter().filter(|axis| !axis.is_rotary()) {
             if let Some(word) = &mut self.axes[axis as usize] {
                 word.value = word.value.map(|value| value * unit.mm());
             }
         }
-        self
     }
 
     /// Reads the block between two bytes.

@@ -167,7 +167,7 @@ pub(super) fn head_without(
             edits.put(range, String::new());
         }
     }
-    let text = String::from_utf8_lossy(&edits.apply(source, line.clone())).into_owned();
+    let text = String::from_utf8_lossy(&edits.applied(source, line.clone())).into_owned();
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 

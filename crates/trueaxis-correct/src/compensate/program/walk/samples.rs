@@ -27,7 +27,7 @@ impl Walk<'_> {
         }
         let begins = self.begins(m, way.begin);
         let mut samples = Vec::with_capacity(way.nodes.len() + 1);
-        samples.push(self.sample(0.0, way.begin, begins));
+        samples.push(self.first(way.begin, begins));
         let (mut last, mut side) = (*self.written.command(), *self.corrector.approach());
         for stop in self.stops(way, whole) {
             let done = self.correct(m, way, &stop, (&last, &side))?;
@@ -40,7 +40,19 @@ impl Walk<'_> {
                 samples.push(Sample { turns: stop.turns, side, ..sample });
             }
         }
+        self.before = samples.last().zip(way.nodes.last()).map(|(s, node)| (node.command, *s));
         Ok(samples)
+    }
+
+    /// Where the move begins: mostly where the one before it ended.
+    fn first(&self, nominal: &Command, command: Command) -> Sample {
+        match &self.before {
+            Some((at, last)) if at == nominal && last.command == command => {
+                let side = *self.corrector.approach();
+                Sample { u: 0.0, side, turns: false, ..*last }
+            }
+            _ => self.sample(0.0, nominal, command),
+        }
     }
 
     /// Where the axes would stand at the beginning: cuts are made as if the way began where it should.
