@@ -228,7 +228,7 @@ WORDS = {
     **{f"identify_{kind}": ["identify", kind] for kind in "expansion probe rtcp surface tables thermal tools".split()},
     **{f"compensate_{kind}": ["compensate", kind] for kind in "adapt program tables values".split()},
     "evaluate_form": ["evaluate", "form"],
-    **{verb: [verb] for verb in "pose solve part simulate trace predict measure plan identify post evaluate verify".split()},
+    **{verb: [verb] for verb in "pose solve part simulate trace predict study measure plan identify post evaluate verify".split()},
 }
 #: Not for Python: how the command prints.
 COMMAND_ONLY = {"help", "no-report", "show-template"}
