@@ -7,11 +7,13 @@
 mod arguments;
 mod check;
 mod compensate;
+mod completions;
 mod door;
 mod evaluate;
 mod explain;
 mod identify;
 mod live;
+mod manual;
 mod measure;
 mod new;
 mod output;
@@ -113,6 +115,10 @@ enum Verb {
     Explain(explain::Arguments),
     /// Schema: the JSON documents of --format json: keys, types, meanings and units
     Schema(schema::Arguments),
+    /// Completions: what a shell completes when Tab is pressed
+    Completions(completions::Arguments),
+    /// Manual: the help of every command as pages for man
+    Manual(manual::Arguments),
     /// Serve: all functions in a browser, offline: a local server with a built-in page
     #[cfg(feature = "serve")]
     Serve(serve::Arguments),
@@ -157,6 +163,8 @@ fn main() -> ExitCode {
         Verb::Verify(arguments) => verify::run(&arguments),
         Verb::Explain(arguments) => explain::run(&arguments),
         Verb::Schema(arguments) => schema::run(&arguments),
+        Verb::Completions(arguments) => completions::run(&arguments, Command::command()),
+        Verb::Manual(arguments) => manual::run(&arguments, Command::command()),
         #[cfg(feature = "serve")]
         Verb::Serve(arguments) => serve::run(&arguments),
     };
