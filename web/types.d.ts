@@ -13893,9 +13893,9 @@ export interface OutputEntry {
    */
   mean_mm: number;
   /**
-   * Standard deviation, mm.
+   * Standard deviation; null of a single part, mm.
    */
-  u_mm: number;
+  u_mm: number | null;
   /**
    * 2.5 % quantile, mm.
    */
@@ -13950,9 +13950,9 @@ export interface GoodEntry {
    */
   parts_ratio: number;
   /**
-   * Its standard uncertainty. Unit: 1.
+   * Its standard uncertainty; null where all machines have the same share. Unit: 1.
    */
-  u_parts_ratio: number;
+  u_parts_ratio: number | null;
   /**
    * How many machines.
    */

@@ -322,7 +322,7 @@ fn read_correlations(item: &Item<'_>, inputs: &[Input]) -> Option<Correlation> {
             };
             let found: Vec<usize> = names.iter().map(input).collect::<Option<_>>()?;
             let [a, b] = found[..] else {
-                of.error("bad-count", format!("{} inputs", found.len()), "two");
+                of.error("bad-count", format!("a correlation of {} inputs", found.len()), "two");
                 return None;
             };
             let number = number?;

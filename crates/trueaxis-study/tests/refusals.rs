@@ -144,3 +144,31 @@ fn a_sample_out_of_the_travel_is_named() {
     assert!(fault.message.starts_with("machine "), "{}", fault.message);
     assert!(fault.message.contains("workpiece X = "), "{}", fault.message);
 }
+
+/// Sensors are checked before anything is drawn.
+#[test]
+fn temperatures_are_those_of_sensors_of_the_machine() {
+    let input =
+        |sensor: &str| format!("[[input]]\ntemperature = \"{sensor}\"\nvalue = \"22 ± 1 degC\"\n");
+    assert_eq!(
+        codes("sensor", &format!("{STUDY}{DESIGN}{}", input("scale_x"))),
+        ["unknown-sensor"]
+    );
+    // The arm grows: its temperature is varied, too.
+    let scales = ["scale_x", "scale_y", "scale_z"].map(input).concat();
+    assert_eq!(codes("growth", &format!("{HOLES}{DESIGN}{scales}")), ["no-workpiece-temperature"]);
+    let all = scales + &input("workpiece");
+    assert!(codes("all", &format!("{HOLES}{DESIGN}{all}")).is_empty());
+}
+
+/// Of a single part there is no spread, and of machines that are all alike no uncertainty of their share.
+#[test]
+fn one_part_has_no_uncertainty() {
+    let (study, _) = read("single", &format!("{STUDY}[design]\nmachines = 1\n{INPUT}"));
+    let study = study.unwrap();
+    let found = study.findings(&study.evaluate(0..1, &|_| {}).unwrap());
+    assert_eq!(found.combinations[0].outputs[0].spread.u_mm, None);
+    let good = found.combinations[0].good.unwrap();
+    assert_eq!((good.parts_ratio, good.u_parts_ratio), (1.0, None));
+    assert!((good.interval_ratio[0] - 0.025).abs() < 1e-9);
+}

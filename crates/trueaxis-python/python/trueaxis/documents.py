@@ -4180,8 +4180,8 @@ class StudyDocument(Record):
         high_limit_mm: Optional[float]
         #: Mean of all machines and days, mm.
         mean_mm: float
-        #: Standard deviation, mm.
-        u_mm: float
+        #: Standard deviation; null of a single part, mm.
+        u_mm: Optional[float]
         #: 2.5 % quantile, mm.
         low_mm: float
         #: 97.5 % quantile, mm.
@@ -4209,8 +4209,8 @@ class StudyDocument(Record):
         """Machines and parts that hold their tolerances."""
         #: The share of parts. Unit: 1.
         parts_ratio: float
-        #: Its standard uncertainty. Unit: 1.
-        u_parts_ratio: float
+        #: Its standard uncertainty; null where all machines have the same share. Unit: 1.
+        u_parts_ratio: Optional[float]
         #: How many machines.
         machines: int
         #: The share of machines. Unit: 1.

@@ -3,9 +3,10 @@
 use crate::cases::{Case, Output, Product};
 use crate::inputs::{Input, Varied, influence_name};
 use std::path::Path;
-use trueaxis::input::{Diagnostics, Section};
+use trueaxis::input::{Diagnostics, Section, Severity};
 use trueaxis::machine::Machine;
 use trueaxis::machine::errors::Influence;
+use trueaxis::machine::heat::Conditions;
 use trueaxis::predict::drawing::{LinearPart, PartStudy, is_part_study, read_part_study};
 use trueaxis::predict::holes::{Applied, HoleStudy, is_hole_study, read_hole_study};
 use trueaxis::predict::{Study, read_study};
@@ -84,9 +85,32 @@ impl Named {
         }
     }
 
+    /// Whether the machine knows the sensors that are varied, and all that it needs.
+    fn check_sensors(&self, root: &Section<'_>, inputs: &[Input]) -> Option<()> {
+        let Some(conditions) = mean_conditions(inputs) else { return Some(()) };
+        let mut problems = Diagnostics::new();
+        let warm = self.machine().at(&conditions, &mut problems);
+        let wrong = problems.iter().find(|d| d.severity == Severity::Error);
+        if let Some(wrong) = wrong {
+            root.error(wrong.code, format!("`{}`: {}", self.name, wrong.message), &wrong.hint);
+            return None;
+        }
+        if warm?.unknown_growth(&conditions).is_some() {
+            let message = format!(
+                "`{}`: the temperature of the workpiece is not varied, and what its study says of temperatures does not hold here",
+                self.name
+            );
+            let hint = "[[input]] temperature = \"workpiece\", value = { uniform = [\"19 degC\", \"21 degC\"] }";
+            root.error("no-workpiece-temperature", message, hint);
+            return None;
+        }
+        Some(())
+    }
+
     /// The case with the inputs in its machine.
     pub fn with(self, root: &Section<'_>, inputs: &[Input]) -> Option<Case> {
         self.refuse_what_cannot_vary(root, inputs)?;
+        self.check_sensors(root, inputs)?;
         let put = |machine: &Machine| match with_inputs(machine, inputs) {
             Ok(machine) => Some(machine),
             Err((input, why)) => {
@@ -174,6 +198,24 @@ impl Named {
             _ => Some(()),
         }
     }
+}
+
+/// The temperatures in the middle of what is drawn; none if none are.
+fn mean_conditions(inputs: &[Input]) -> Option<Conditions> {
+    let mut conditions = None;
+    for input in inputs {
+        if let Varied::Log(log) = &input.varied {
+            conditions = log.at(input.distribution.mean());
+        }
+    }
+    for input in inputs {
+        let Varied::Temperatures(sensors) = &input.varied else { continue };
+        for sensor in sensors {
+            let celsius = input.distribution.mean();
+            conditions = Some(conditions.take().unwrap_or_default().with_reading(sensor, celsius));
+        }
+    }
+    conditions
 }
 
 /// A machine with the means of all inputs, and what each of them adds.

@@ -8,8 +8,9 @@ use trueaxis::part::tolerance::Outcome;
 pub struct Good {
     /// The share of all parts. Unit: 1.
     pub parts_ratio: f64,
-    /// Its standard uncertainty: parts of one machine are alike, so that machines count. Unit: 1.
-    pub u_parts_ratio: f64,
+    /// Its standard uncertainty: parts of one machine are alike, so that machines count; none where all machines have the same share, which
+    /// says nothing of how others differ. Unit: 1.
+    pub u_parts_ratio: Option<f64>,
     /// Machines that hold them on enough days.
     pub machines: usize,
     /// The share of machines. Unit: 1.
@@ -33,7 +34,7 @@ impl Good {
         let machines = shares.iter().filter(|s| **s >= days_ratio - 1e-9).count();
         Self {
             parts_ratio,
-            u_parts_ratio: if n > 1.0 { (squares / (n - 1.0) / n).sqrt() } else { 0.0 },
+            u_parts_ratio: (squares > 0.0).then(|| (squares / (n - 1.0) / n).sqrt()),
             machines,
             machines_ratio: machines as f64 / n,
             interval_ratio: interval(machines, shares.len()),

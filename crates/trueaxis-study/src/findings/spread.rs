@@ -5,8 +5,8 @@
 pub struct Spread {
     /// Mean, mm.
     pub mean_mm: f64,
-    /// Standard deviation, mm.
-    pub u_mm: f64,
+    /// Standard deviation; none of a single part. Unit: mm.
+    pub u_mm: Option<f64>,
     /// 2.5 % quantile, mm.
     pub low_mm: f64,
     /// 97.5 % quantile, mm.
@@ -43,7 +43,7 @@ impl Spread {
         let quantile = |q: f64| values[((n - 1.0) * q).round() as usize];
         Self {
             mean_mm,
-            u_mm: if n > 1.0 { (squares / (n - 1.0)).sqrt() } else { 0.0 },
+            u_mm: (n > 1.0).then(|| (squares / (n - 1.0)).sqrt()),
             low_mm: quantile(0.025),
             high_mm: quantile(0.975),
             least_mm: values[0],

@@ -130,8 +130,8 @@ pub struct OutputEntry<'a> {
     pub high_limit_mm: Option<f64>,
     /// Mean of all machines and days, mm.
     pub mean_mm: f64,
-    /// Standard deviation, mm.
-    pub u_mm: f64,
+    /// Standard deviation; null of a single part, mm.
+    pub u_mm: Option<f64>,
     /// 2.5 % quantile, mm.
     pub low_mm: f64,
     /// 97.5 % quantile, mm.
@@ -161,8 +161,8 @@ pub struct OutputEntry<'a> {
 pub struct GoodEntry {
     /// The share of parts. Unit: 1.
     pub parts_ratio: f64,
-    /// Its standard uncertainty. Unit: 1.
-    pub u_parts_ratio: f64,
+    /// Its standard uncertainty; null where all machines have the same share. Unit: 1.
+    pub u_parts_ratio: Option<f64>,
     /// How many machines.
     pub machines: usize,
     /// The share of machines. Unit: 1.

@@ -126,7 +126,7 @@ fn spreads<'a>(study: &Study, one: &CombinationFindings) -> Section<'a> {
         table.push([
             named(study, case, output),
             um(spread.mean_mm),
-            um(spread.u_mm),
+            spread.u_mm.map_or("–".to_owned(), um),
             format!("{} to {}", um(spread.low_mm), um(spread.high_mm)),
             um(spread.largest_mm),
             limit(output.low_mm, output.high_mm),
@@ -143,7 +143,7 @@ fn good<'a>(study: &Study, one: &CombinationFindings) -> Section<'a> {
         [
             name,
             percent(good.parts_ratio),
-            percent(good.u_parts_ratio),
+            good.u_parts_ratio.map_or("–".to_owned(), percent),
             format!("{} of {}", good.machines, study.design.machines),
             percent(good.machines_ratio),
             format!("{} to {}", percent(low), percent(high)),
