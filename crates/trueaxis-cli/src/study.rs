@@ -30,11 +30,22 @@ pub struct Arguments {
     /// Random seed, instead of the study's
     #[arg(long, value_name = "SEED")]
     seed: Option<u64>,
+    /// Rows of the sensitivity analysis, instead of the study's (0: none)
+    #[arg(long, value_name = "N", value_parser = rows)]
+    sensitivity: Option<usize>,
     /// Write inputs and outputs of every sample here, as a table (.csv)
     #[arg(long, value_name = "FILE")]
     table: Option<PathBuf>,
     #[command(flatten)]
     door: DoorArguments,
+}
+
+/// So few rows as 1 to 15 say nothing.
+fn rows(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(rows) if rows == 0 || rows >= 16 => Ok(rows),
+        _ => Err("0 for none, or 16 and more".to_owned()),
+    }
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
@@ -44,6 +55,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
             machines: arguments.machines.map(|n| n as usize),
             days: arguments.days.map(|n| n as usize),
             seed: arguments.seed,
+            sensitivity: arguments.sensitivity,
         },
         table: arguments.table.clone(),
     };

@@ -35,7 +35,12 @@ fn changes(o: &Options<'_, '_>) -> PyResult<Changes> {
             count => Ok(count.and_then(|n| usize::try_from(n).ok())),
         }
     };
-    Ok(Changes { machines: count("machines")?, days: count("days")?, seed: o.count("seed")? })
+    let sensitivity = o.count("sensitivity")?.and_then(|n| usize::try_from(n).ok());
+    if sensitivity.is_some_and(|rows| (1..16).contains(&rows)) {
+        return Err(PyValueError::new_err("sensitivity: 0 for none, or 16 and more"));
+    }
+    let (machines, days, seed) = (count("machines")?, count("days")?, o.count("seed")?);
+    Ok(Changes { machines, days, seed, sensitivity })
 }
 
 impl NativeStudy {

@@ -29,6 +29,8 @@ pub struct Changes {
     pub days: Option<usize>,
     /// The seed instead of that of the file.
     pub seed: Option<u64>,
+    /// Rows of the sensitivity analysis instead of those of the file; 0: none.
+    pub sensitivity: Option<usize>,
 }
 
 /// Reads a study with all that it names; all problems at once.
@@ -181,7 +183,7 @@ fn read_design(s: &Section<'_>, changes: Changes) -> Option<Design> {
         machines: changes.machines.unwrap_or(machines?),
         days: changes.days.unwrap_or(days?),
         seed: changes.seed.unwrap_or(seed? as u64),
-        sensitivity: sensitivity?,
+        sensitivity: changes.sensitivity.unwrap_or(sensitivity?),
         levels: Vec::new(),
         groups: 0,
     })

@@ -81,7 +81,7 @@ def _option(name: str, value: Any) -> Any:
 
 
 #: Options that are whole numbers.
-_COUNTS = frozenset(["seed", "block", "most_jumps", "number", "machines", "days"])
+_COUNTS = frozenset(["seed", "block", "most_jumps", "number", "machines", "days", "sensitivity"])
 
 
 

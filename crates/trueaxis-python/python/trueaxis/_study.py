@@ -26,13 +26,14 @@ def study(
     machines: Optional[int] = None,
     days: Optional[int] = None,
     seed: Optional[int] = None,
+    sensitivity: Optional[int] = None,
     table: Optional[Path] = None,
     report: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[documents.StudyDocument]:
     """How many machines hold the part on how many days, and what makes the variance: ``trueaxis study``.
 
-    machines, days, seed: instead of those of the study.
+    machines, days, seed, sensitivity (rows; 0: none): instead of those of the study.
     table: write inputs and outputs of every sample here, a CSV file.
 
     For any samples of a study, and for clusters, take :class:`Study`.
@@ -71,14 +72,21 @@ class Study:
         machines: Optional[int] = None,
         days: Optional[int] = None,
         seed: Optional[int] = None,
+        sensitivity: Optional[int] = None,
     ) -> Study:
         """Reads and checks a study file with everything that it names.
 
-        machines, days, seed: instead of those of the file.
+        machines, days, seed, sensitivity (rows; 0: none): instead of those of the file.
 
         Raises TrueAxisError with every problem of the files, each with its line and column.
         """
-        options = {"study": path_of(path), "machines": machines, "days": days, "seed": seed}
+        options = {
+            "study": path_of(path),
+            "machines": machines,
+            "days": days,
+            "seed": seed,
+            "sensitivity": sensitivity,
+        }
         return cls._of(options, {}, False)
 
     @classmethod
@@ -129,7 +137,7 @@ class Study:
             for path, content in self._native.files.items()
         }
         sums = hashlib.sha256()
-        for word in (_native.VERSION, *(f"{key}={self._options[key]}" for key in ("machines", "days", "seed"))):
+        for word in (_native.VERSION, *(f"{key}={self._options[key]}" for key in ("machines", "days", "seed", "sensitivity"))):
             sums.update(word.encode() + b"\0")
         for name in sorted(files):
             sums.update(name.encode() + b"\0" + hashlib.sha256(files[name]).digest())
@@ -137,6 +145,9 @@ class Study:
 
     def values(self, start: int = 0, stop: Optional[int] = None, *, threads: Optional[int] = None) -> Floats:
         """The outputs of samples from `start` to before `stop`, mm: a row for each, columns as :attr:`outputs`.
+
+        First machine after machine, each with its days (of a factorial design, so for each combination), then the rows of
+        the sensitivity analysis: A, B, and A with each group from B.
 
         threads: how many; without it one for each core. The numbers do not depend on it.
         """
