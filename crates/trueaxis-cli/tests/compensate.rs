@@ -384,3 +384,26 @@ fn values_that_are_refused_are_a_document_too() {
     let sound = trueaxis(&["compensate", "values", MILL, "--axis", "X", "--format", "json"]);
     assert!(sound.json()["diagnostics"].is_array(), "every document has that key: {}", sound.out);
 }
+
+/// The machine alone compensated makes a warm part worse: the warning advises the other values, whichever way they were left out.
+#[test]
+fn the_warning_about_the_machine_alone_advises_what_was_not_asked() {
+    let gantry = "machines/gantry-001/machine.toml";
+    let warm = "scale_x=30.5 scale_y=31.2 scale_z=30.8 workpiece=30.8";
+    let at = [
+        "compensate",
+        "values",
+        gantry,
+        "--at",
+        "X=3500",
+        "--temperature",
+        warm,
+        "--format",
+        "csv",
+    ];
+    let of = |more: &[&str]| trueaxis(&[&at[..], more].concat()).err;
+    for ask in [&["--machine-only"][..], &["--of", "machine"]] {
+        assert!(of(ask).contains("hint: use --of comprehensive"), "{}", of(ask));
+    }
+    assert!(of(&[]).contains("hint: these values are of the comprehensive error"), "{}", of(&[]));
+}

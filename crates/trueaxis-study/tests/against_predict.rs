@@ -9,7 +9,7 @@ use trueaxis::predict::{Sampling, predict, read_study};
 
 /// Mean and u of 4000 machines by another generator: within five standard deviations of each.
 #[test]
-fn spreads_are_those_of_predict() {
+fn law_spreads_are_those_of_predict() {
     let n = 4000;
     let study = frustum("against-predict", &format!("stated = true\n[design]\nmachines = {n}\n"));
     let found = study.findings(&values(&study, 0..n));
@@ -29,7 +29,7 @@ fn spreads_are_those_of_predict() {
 /// A Latin hypercube and the sequence of Sobol' know the mean better than independent machines: by their error over
 /// twenty seeds.
 #[test]
-fn even_designs_know_the_mean_better() {
+fn law_even_designs_know_the_mean_better() {
     let error = |kind: &str| {
         let means: Vec<f64> = (0..20)
             .map(|seed| {
@@ -52,7 +52,7 @@ fn even_designs_know_the_mean_better() {
 
 /// A part of any shape: its characteristics on drawn machines, as predict's own Monte Carlo finds them.
 #[test]
-fn parts_are_those_of_predict() {
+fn law_parts_are_those_of_predict() {
     let n = 2000;
     let text = format!(
         "name = \"part\"\nstudy = \"ROOT/examples/03_predict/housing.toml\"\nstated = true\n[design]\nmachines = {n}\n"

@@ -42,8 +42,9 @@ fn assert_same(study: &Study, sample: usize, expected: &[f64]) {
     }
 }
 
+/// A sample of a study is what `predict` says of a machine with these errors.
 #[test]
-fn errors_of_a_sample() {
+fn law_errors_of_a_sample() {
     let study = frustum(
         "direct-errors",
         r#"
@@ -103,7 +104,7 @@ curve = { u = "5 um", terms = 2 }
 
 /// Where the workpiece stands, how the zero was touched, and how long the tool is.
 #[test]
-fn set_up_of_a_sample() {
+fn law_set_up_of_a_sample() {
     let study = frustum(
         "direct-set-up",
         r#"
@@ -137,7 +138,7 @@ tool_length = "110 ± 10 mm"
 
 /// Holes in a hall: errors and temperatures of a sample, with the compensation for the machine as in its file.
 #[test]
-fn holes_of_a_sample() {
+fn law_holes_of_a_sample() {
     let study = sound(
         "direct-holes",
         r#"

@@ -34,9 +34,9 @@ tool_length = "100 ± 5 mm"
 per = "hall"
 "#;
 
-/// In one piece, in many, backwards, by 1, 2 and 5 threads: the same bits.
+/// A study in one piece, in many, backwards, by 1, 2 and 5 threads: the same bits.
 #[test]
-fn any_piece_by_any_threads_has_the_same_bits() {
+fn law_any_piece_by_any_threads_has_the_same_bits() {
     for (name, kind, states) in [
         ("bits-random", "monte-carlo", ""),
         ("bits-latin", "latin-hypercube", ""),
@@ -69,7 +69,7 @@ fn any_piece_by_any_threads_has_the_same_bits() {
 
 /// The order of the inputs in the file does not matter, but for rounding; nor do inputs that are added, to the others.
 #[test]
-fn the_order_of_the_inputs_does_not_matter() {
+fn law_the_order_of_the_inputs_does_not_matter() {
     let blocks: Vec<&str> = INPUTS.split("[[input]]").skip(1).collect();
     for kind in ["monte-carlo", "sobol"] {
         let file = |blocks: &[&str]| {
@@ -96,7 +96,7 @@ fn the_order_of_the_inputs_does_not_matter() {
 
 /// A machine keeps its errors on all of its days, the hall its own on all machines, and a day of a machine has its own.
 #[test]
-fn each_level_is_drawn_as_often_as_it_says() {
+fn law_each_level_is_drawn_as_often_as_it_says() {
     let study = frustum("levels", &format!("[design]\nmachines = 5\ndays = 7\n{INPUTS}"));
     let at = |machine: usize, day: usize, input: &str| {
         let sample = machine * 7 + day;
@@ -114,7 +114,7 @@ fn each_level_is_drawn_as_often_as_it_says() {
 
 /// Of a factorial design every combination has the same machines.
 #[test]
-fn combinations_have_the_same_machines() {
+fn law_combinations_have_the_same_machines() {
     let study = frustum(
         "levels-factorial",
         r#"

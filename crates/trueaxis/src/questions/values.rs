@@ -250,7 +250,7 @@ impl Question for CompensateValues {
         let tables = tables.collect::<Option<Vec<_>>>()?;
         // A text that is shown says it itself, on top.
         if self.form != ValuesForm::Text || self.output.is_some() {
-            let hint = match self.of {
+            let hint = match self.of() {
                 Compensation::Comprehensive => "these values are of the comprehensive error",
                 _ => "use --of comprehensive",
             };
