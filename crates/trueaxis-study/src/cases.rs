@@ -34,7 +34,9 @@ pub struct Case {
     pub file: String,
     /// What it is.
     pub product: Product,
-    /// Which input moves each uncertain quantity of its machine.
+    /// Its machine as in its study, without the inputs: that is what a control compensates.
+    pub known: Machine,
+    /// Which input moves each uncertain quantity of its machine, at any temperatures of the sensors that are varied.
     pub input_of: Vec<Option<usize>>,
     /// What is found of it.
     pub outputs: Vec<Output>,
@@ -112,28 +114,12 @@ impl Case {
     /// # Errors
     /// In words: sensors that the machine does not have, a tool without length.
     pub fn machine_at(&self, state: &State) -> Result<Machine, String> {
-        let mut machine = self.machine().clone();
-        if let Some(conditions) = &state.conditions {
-            let mut problems = Diagnostics::new();
-            let warm = machine.at(conditions, &mut problems);
-            let first = problems.iter().map(|d| d.message.clone()).next();
-            machine = warm.ok_or_else(|| first.unwrap_or_default())?;
-            if machine.unknown_growth(conditions).is_some() {
-                return Err("the workpiece grows, and none of its temperatures is given".to_owned());
-            }
-        }
-        if state.workpiece_mm != Vec3::zeros() {
-            let body = &machine.bodies()[0];
-            let (placement, mounting) = (body.placement, body.mounting);
-            machine = machine.with_workpiece(Pose::shift(state.workpiece_mm) * placement, mounting);
-        }
-        if let Some(length_mm) = state.tool_length_mm {
-            if length_mm < 0.0 {
-                return Err(format!("{length_mm} mm is no length of a tool"));
-            }
-            machine = machine.with_tip(Vec3::new(0.0, 0.0, -length_mm));
-        }
-        Ok(machine)
+        at(self.machine(), state)
+    }
+
+    /// The machine that its control knows at a state.
+    fn known_at(&self, state: &State) -> Result<Machine, String> {
+        at(&self.known, state)
     }
 
     /// The case ready to be made by `machine`, its own or the same at a state.
@@ -163,7 +149,10 @@ impl Case {
                 let cutting = Cutting::along(machine, study.piece(), &reference, log, program);
                 Ready::Piece(Box::new(cutting.map_err(|e| e.to_string())?), study)
             }
-            Product::Holes(study) => Ready::Holes(CommandedHoles::new(study, machine)?),
+            Product::Holes(study) => {
+                let known = self.known_at(state)?;
+                Ready::Holes(CommandedHoles::new(study, &known, machine)?)
+            }
             Product::Part(part) => Ready::Part(&part.1),
         };
         let factors = vec![0.0; self.input_of.len()];
@@ -180,6 +169,32 @@ impl Case {
             factors,
         })
     }
+}
+
+/// A machine at a state.
+fn at(machine: &Machine, state: &State) -> Result<Machine, String> {
+    let mut machine = machine.clone();
+    if let Some(conditions) = &state.conditions {
+        let mut problems = Diagnostics::new();
+        let warm = machine.at(conditions, &mut problems);
+        let first = problems.iter().map(|d| d.message.clone()).next();
+        machine = warm.ok_or_else(|| first.unwrap_or_default())?;
+        if machine.unknown_growth(conditions).is_some() {
+            return Err("the workpiece grows, and none of its temperatures is given".to_owned());
+        }
+    }
+    if state.workpiece_mm != Vec3::zeros() {
+        let body = &machine.bodies()[0];
+        let (placement, mounting) = (body.placement, body.mounting);
+        machine = machine.with_workpiece(Pose::shift(state.workpiece_mm) * placement, mounting);
+    }
+    if let Some(length_mm) = state.tool_length_mm {
+        if length_mm < 0.0 {
+            return Err(format!("{length_mm} mm is no length of a tool"));
+        }
+        machine = machine.with_tip(Vec3::new(0.0, 0.0, -length_mm));
+    }
+    Ok(machine)
 }
 
 impl Prepared<'_> {

@@ -77,7 +77,8 @@ fn read(root: &Section<'_>, path: &Path, changes: Changes) -> Option<Study> {
     let mut cases =
         named.into_iter().map(|one| one.with(root, &inputs)).collect::<Option<Vec<_>>>()?;
     if draws_stated {
-        inputs.extend(stated_inputs(&cases));
+        let stated = stated_inputs(&cases, &inputs);
+        inputs.extend(stated);
     }
     if inputs.is_empty() {
         let message = "nothing is varied".to_owned();
@@ -244,10 +245,10 @@ fn check_names(root: &Section<'_>, inputs: &[Input]) -> Option<()> {
 }
 
 /// An input for each uncertain quantity of the machines; of one name in two cases it is the same quantity.
-fn stated_inputs(cases: &[crate::cases::Case]) -> Vec<Input> {
+fn stated_inputs(cases: &[crate::cases::Case], inputs: &[Input]) -> Vec<Input> {
     let mut all: Vec<(String, Option<BodyName>)> = Vec::new();
     for case in cases {
-        for quantity in crate::cases::stated_quantities(case.machine()) {
+        for quantity in crate::cases::stated_quantities(&case.warm(inputs)) {
             if !all.iter().any(|(name, _)| *name == quantity.0) {
                 all.push(quantity);
             }

@@ -96,6 +96,11 @@ fn each_mistake_has_its_code() {
         ("factorial", format!("{STUDY}[design]\nkind = \"factorial\"\n{INPUT}"), "bad-design"),
         ("rows", format!("{STUDY}[design]\nmachines = 10\nsensitivity = 3\n{INPUT}"), "bad-count"),
         (
+            "no such axis",
+            format!("{STUDY}{DESIGN}[[input]]\nsetting = \"X\"\nvalue = \"0 ± 1 deg\"\n"),
+            "cannot-vary",
+        ),
+        (
             "holes",
             format!("{HOLES}{DESIGN}[[input]]\nsetting = \"C\"\nvalue = \"0 ± 1 deg\"\n"),
             "cannot-vary",

@@ -1,15 +1,16 @@
 //! The cases of a study: `study = "FILE"`, or several in `[case]`.
 
-use crate::cases::{Case, Output, Product};
+use crate::cases::{Case, Output, Product, State};
 use crate::inputs::{Input, Varied, influence_name};
 use std::path::Path;
 use trueaxis::input::{Diagnostics, Section, Severity};
 use trueaxis::machine::Machine;
+use trueaxis::machine::axis::AxisKind;
 use trueaxis::machine::errors::Influence;
 use trueaxis::machine::heat::Conditions;
 use trueaxis::predict::drawing::{LinearPart, PartStudy, is_part_study, read_part_study};
 use trueaxis::predict::holes::{Applied, HoleStudy, is_hole_study, read_hole_study};
-use trueaxis::predict::{Study, read_study};
+use trueaxis::predict::{Setting, Study, read_study};
 
 /// What a case names, as it was read.
 enum Kind {
@@ -119,6 +120,7 @@ impl Named {
                 None
             }
         };
+        let known = self.machine().clone();
         let product = match self.kind {
             Kind::Piece(mut study) => {
                 study.machine = put(&study.machine)?;
@@ -138,7 +140,8 @@ impl Named {
             }
         };
         let outputs = outputs(&product);
-        Some(Case { name: self.name, file: self.file, product, input_of: Vec::new(), outputs })
+        let (name, file) = (self.name, self.file);
+        Some(Case { name, file, product, known, input_of: Vec::new(), outputs })
     }
 
     fn refuse_what_cannot_vary(&self, root: &Section<'_>, inputs: &[Input]) -> Option<()> {
@@ -159,6 +162,23 @@ impl Named {
                 Kind::Holes(_) if !heats => {
                     let message = format!("`{what}` cannot be varied for the holes `{case}`");
                     return refuse(message, "errors and temperatures; or a case for each place");
+                }
+                Kind::Piece(study) if !heats && study.program.is_some() => {
+                    let message =
+                        format!("`{case}` is cut by a program, which would not follow `{what}`");
+                    return refuse(
+                        message,
+                        "leave `program` out of its study: the ideal path follows",
+                    );
+                }
+                Kind::Piece(study) if !sets(study, input) => {
+                    let message = format!(
+                        "`{what}` changes nothing in `{case}`: its zero is perfect, or there is no such rotary axis"
+                    );
+                    return refuse(
+                        message,
+                        "the letter of a rotary axis; [setting] without perfect = true",
+                    );
                 }
                 Kind::Piece(study) if heats && study.temperatures.is_some() => {
                     let message = format!(
@@ -200,6 +220,14 @@ impl Named {
     }
 }
 
+/// Whether an input that varies how the zero is touched can do so.
+fn sets(study: &Study, input: &Input) -> bool {
+    let Varied::Setting(axis) = input.varied else { return true };
+    let machine = &study.machine;
+    let is_rotary = |i: usize| machine.axes()[i].kind == AxisKind::Rotary;
+    study.reference.setting != Setting::Perfect && machine.axis_index(axis).is_some_and(is_rotary)
+}
+
 /// The temperatures in the middle of what is drawn; none if none are.
 fn mean_conditions(inputs: &[Input]) -> Option<Conditions> {
     let mut conditions = None;
@@ -239,6 +267,13 @@ fn with_inputs(machine: &Machine, inputs: &[Input]) -> Result<Machine, (String, 
 }
 
 impl Case {
+    /// Its machine at the temperatures that are varied: what grows then is uncertain, too.
+    pub(super) fn warm(&self, inputs: &[Input]) -> Machine {
+        let state = State { conditions: mean_conditions(inputs), ..State::default() };
+        // Whether it can be so warm was checked before.
+        self.machine_at(&state).unwrap_or_else(|_| self.machine().clone())
+    }
+
     /// Connects the uncertain quantities of its machine with the inputs.
     pub(super) fn connect(&mut self, inputs: &[Input]) {
         let input = |quantity: &String| {
@@ -247,7 +282,7 @@ impl Case {
                 _ => influence_name(&input.name) == *quantity,
             })
         };
-        self.input_of = self.machine().uncertain_quantities().iter().map(input).collect();
+        self.input_of = self.warm(inputs).uncertain_quantities().iter().map(input).collect();
     }
 }
 

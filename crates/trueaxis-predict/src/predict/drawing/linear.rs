@@ -47,11 +47,20 @@ impl LinearPart {
     /// # Errors
     /// In words: a surface that cannot be evaluated.
     pub fn values_mm(&self, factors: &[f64], surface: &mut Vec<f64>) -> Result<Vec<f64>, String> {
-        surface.clear();
-        surface.extend_from_slice(&self.deviations_mm);
-        for (shift, z) in self.shifts_mm.iter().zip(factors).filter(|(_, z)| **z != 0.0) {
-            surface.iter_mut().zip(shift).for_each(|(d, s)| *d += 0.5 * z * s);
-        }
+        displace((&self.deviations_mm, &self.shifts_mm), factors, surface);
         self.part.evaluate(surface).map_err(|e| e.to_string())
+    }
+}
+
+/// The surface of the machine each of whose uncertain quantities is so many standard uncertainties off: docs/model.md eq. 321.
+pub(super) fn displace(
+    (deviations, shifts): (&[f64], &[Vec<f64>]),
+    factors: &[f64],
+    surface: &mut Vec<f64>,
+) {
+    surface.clear();
+    surface.extend_from_slice(deviations);
+    for (shift, z) in shifts.iter().zip(factors).filter(|(_, z)| **z != 0.0) {
+        surface.iter_mut().zip(shift).for_each(|(d, s)| *d += 0.5 * z * s);
     }
 }

@@ -8,6 +8,7 @@
 //! approximation. [`cut_with`] cuts again instead.
 
 use super::super::monte_carlo::{Sampling, Spread, spreads};
+use super::linear::displace;
 use super::path::CutPath;
 use super::{PartStudy, nails};
 use trueaxis_cut::cut;
@@ -46,11 +47,7 @@ pub(super) fn many(
     let count = part.characteristics.len();
     // After the values of a sample: 1 for each that is in tolerance, and 1 if all are.
     let sample = |factors: &[f64], surface: &mut Vec<f64>, found: &mut [f64]| {
-        surface.clear();
-        surface.extend_from_slice(deviations);
-        for (shift, z) in shifts.iter().zip(factors) {
-            surface.iter_mut().zip(shift).for_each(|(d, s)| *d += 0.5 * z * s);
-        }
+        displace((deviations, shifts), factors, surface);
         let values = part.evaluate(surface).map_err(|e| e.to_string())?;
         let mut all = 1.0;
         for (i, (value, asked)) in values.iter().zip(&part.characteristics).enumerate() {

@@ -33,28 +33,28 @@ pub struct HolesOfMachine {
 }
 
 impl<'a> CommandedHoles<'a> {
-    /// The holes with the compensation that the study applies, computed for `machine`: that of the study, or the same at
-    /// other temperatures.
+    /// The holes with the compensation that the study applies, computed for the machine that the control knows: that of the
+    /// study, or the same at other temperatures. `actual` is what makes them.
     ///
     /// # Errors
     /// In words: a record of what acted, which belongs to one part; a hole that cannot be reached.
-    pub fn new(study: &'a HoleStudy, machine: &'a Machine) -> Result<Self, String> {
+    pub fn new(study: &'a HoleStudy, known: &Machine, actual: &'a Machine) -> Result<Self, String> {
         let Applied::By(compensation) = study.applied else {
             return Err("a record of what acted belongs to the one part that was made".to_owned());
         };
-        let quantities = machine.uncertain_quantities();
+        let quantities = actual.uncertain_quantities();
         let commanded = |(i, place): (usize, &Vec3)| {
             let named = |why: String| format!("hole {}: {why}", i + 1);
             let (hole, _) =
-                drill(machine, study.increment_mm, *place, compensation).map_err(named)?;
+                drill(known, study.increment_mm, *place, compensation).map_err(named)?;
             let added_mm = Vec3::from(hole.increments.map(|n| n as f64 * study.increment_mm));
-            let (command, errors) = felt(machine, place + added_mm).map_err(named)?;
-            let u = machine.uncertainties_at(&command, &quantities);
+            let (command, errors) = felt(actual, place + added_mm).map_err(named)?;
+            let u = actual.uncertainties_at(&command, &quantities);
             Ok(Commanded { command, errors, u, added_mm, increments: hole.increments })
         };
         let holes =
             study.holes_mm.iter().enumerate().map(commanded).collect::<Result<_, String>>()?;
-        Ok(Self { machine, places_mm: &study.holes_mm, holes })
+        Ok(Self { machine: actual, places_mm: &study.holes_mm, holes })
     }
 
     /// The holes of the machine each of whose uncertain quantities is so many units off, in the order of
