@@ -586,6 +586,10 @@ export type IssueEntry = {
    * How many points of the path are in it.
    */
   nodes: number;
+  /**
+   * How many stretches it holds: above 1 where there are so many of its kind that the nearest were put together.
+   */
+  stretches: number;
 } & (
   | {
       /**
@@ -816,6 +820,8 @@ export interface Documents {
   "serve-socket": ServeSocket;
   "serve-standards-request": ServeStandardsRequest;
   "serve-standards": ServeStandards;
+  "serve-trace-request": ServeTraceRequest;
+  "serve-trace": ServeTrace;
   "serve-what-if-request": ServeWhatIfRequest;
   "serve-what-if": ServeWhatIf;
   simulate: Simulate;
@@ -12423,6 +12429,10 @@ export interface MarkEntry {
    * The line there, from 1.
    */
   line: number;
+  /**
+   * How many stretches it holds: above 1 where the nearest of many were put together.
+   */
+  stretches: number;
 }
 /**
  * A simulation of a program on a machine: `trueaxis/simulate/1`.
@@ -12456,6 +12466,10 @@ export interface SimulationDocument {
    * Whether a set-up was given; without one work offsets and tool lengths are 0.
    */
   set_up_given: boolean;
+  /**
+   * The result.
+   */
+  verdict: ServeSimulateVerdictEntry;
   /**
    * The whole time, s.
    */
@@ -12511,9 +12525,9 @@ export interface SimulationDocument {
    */
   troubles: IssueEntry[];
   /**
-   * How many more of the same kinds were found, but not listed.
+   * How many stretches of issues there are in all: the sum of `stretches`.
    */
-  troubles_left_out: number;
+  troubles_found: number;
   /**
    * How many functions of the program that move the tool or its place are not executed: they are among the
    * diagnostics.
@@ -12561,6 +12575,23 @@ export interface ServeSimulateMachineEntry {
    * Its kinematic chain from workpiece to tool.
    */
   chain: string;
+}
+/**
+ * The result in a word and a sentence.
+ */
+export interface ServeSimulateVerdictEntry {
+  /**
+   * `good`: nothing endangers part or machine and no time is lost; `bad`; `open`: neither.
+   */
+  standing: "good" | "bad" | "open";
+  /**
+   * Such as `CRITICAL`.
+   */
+  word: string;
+  /**
+   * What that means.
+   */
+  sentence: string;
 }
 /**
  * The motion of one axis.
@@ -13234,6 +13265,271 @@ export interface StandardEntry {
   title: string;
 }
 /**
+ * One line of a program, as `trueaxis trace` shows its block.
+ */
+export interface ServeTraceRequest {
+  /**
+   * The machine file.
+   */
+  machine: string;
+  /**
+   * The program.
+   */
+  program?: string | null;
+  /**
+   * The set-up file; the one beside the program if it is left out.
+   */
+  setup?: string | null;
+  /**
+   * The control that the program is for, as `--control` of the command line.
+   */
+  control?: string | null;
+  /**
+   * The name of a program that was dropped.
+   */
+  name?: string | null;
+  /**
+   * Its text.
+   */
+  text?: string | null;
+  /**
+   * The line of the block, from 1.
+   */
+  line: number;
+}
+/**
+ * A document of the command line with the problems of its input.
+ */
+export interface ServeTrace {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/trace/1";
+  /**
+   * The machine.
+   */
+  machine: MachineEntry;
+  /**
+   * The file of the program.
+   */
+  program: string;
+  /**
+   * The block that was asked for: its number N, else its line.
+   */
+  block: number;
+  /**
+   * Its line in the program.
+   */
+  line: number;
+  /**
+   * Its text.
+   */
+  text: string;
+  /**
+   * How often it is executed; the first time is traced.
+   */
+  executions: number;
+  /**
+   * What the interpreter of the control makes of it.
+   */
+  programmed: ProgrammedEntry;
+  /**
+   * The points into which its path is divided.
+   */
+  nodes: NodeEntry[];
+  /**
+   * The positions of the axes, mm and degrees.
+   */
+  axes?: {
+    [k: string]: number;
+  };
+  /**
+   * The nominal tool in the workpiece frame.
+   */
+  nominal?: ToolPoseEntry;
+  /**
+   * The actual tool there.
+   */
+  actual?: ToolPoseEntry;
+  /**
+   * Actual − nominal.
+   */
+  deviation?: PathDeviationEntry;
+  /**
+   * When the block runs.
+   */
+  time?: TimeEntry;
+  /**
+   * The deviation at its end under each error alone; absent if nothing moves.
+   */
+  budget?: ShareEntry[] | null;
+  /**
+   * The place of every body at its end; absent if nothing moves.
+   */
+  bodies?: BodyEntry[] | null;
+  /**
+   * The problems found in the input.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * A block as the control reads it.
+ */
+export interface ProgrammedEntry {
+  /**
+   * Its moves.
+   */
+  moves: MoveEntry[];
+  /**
+   * What else it does, in words.
+   */
+  events: string[];
+  /**
+   * The program frame.
+   */
+  frame: TraceFrameEntry;
+  /**
+   * Whether the tip of the tool is programmed (RTCP, TRAORI, TCPM).
+   */
+  tool_centre: boolean;
+  /**
+   * Whether the frame is that of a tilted working plane.
+   */
+  tilted_plane: boolean;
+  /**
+   * How the tool axis is interpolated: `axes`, `great circle` or `cone`.
+   */
+  orientation: string;
+  /**
+   * The number of the tool in the spindle.
+   */
+  tool: number;
+  /**
+   * The tool length that is in effect, mm along X, Y and Z.
+   */
+  tool_length_mm: number[];
+}
+/**
+ * A move as it is programmed.
+ */
+export interface MoveEntry {
+  /**
+   * `rapid`, `line`, `circle`, `thread` and so on.
+   */
+  kind: string;
+  /**
+   * The position of the axes that are named, mm and degrees, in the program frame.
+   */
+  target: {
+    [k: string]: number;
+  };
+  /**
+   * The tool axis if it is programmed as a vector. Unit: 1.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  direction: [number, number, number] | null;
+  /**
+   * The feed with its unit, or `rapid`.
+   */
+  feed: string;
+}
+/**
+ * A program frame.
+ */
+export interface TraceFrameEntry {
+  /**
+   * Rotation, scale and mirror of X, Y and Z, row by row. Unit: 1.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  linear: [[number, number, number], [number, number, number], [number, number, number]];
+  /**
+   * Its origin: X Y Z A B C U V W, mm and degrees. Unit: mm or deg.
+   *
+   * @minItems 9
+   * @maxItems 9
+   */
+  shift: [number, number, number, number, number, number, number, number, number];
+}
+/**
+ * A point of the path.
+ */
+export interface NodeEntry {
+  /**
+   * The nominal tool in the workpiece frame.
+   */
+  nominal: ToolPoseEntry;
+  /**
+   * The actual tool there.
+   */
+  actual: ToolPoseEntry;
+  /**
+   * Actual − nominal.
+   */
+  deviation: PathDeviationEntry;
+  /**
+   * The positions of the axes, mm and degrees.
+   */
+  axes: {
+    [k: string]: number;
+  };
+  /**
+   * The time since the start of the program, s.
+   */
+  time_s: number;
+}
+/**
+ * A deviation of the tool on its path.
+ */
+export interface PathDeviationEntry {
+  /**
+   * Of the tip, µm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  tip_um: [number, number, number];
+  /**
+   * Of the axis, µrad.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  axis_urad: [number, number, number];
+  /**
+   * Of the tip along the feed, µm.
+   */
+  feed_um: number;
+  /**
+   * Of the tip along the principal normal of the path, µm.
+   */
+  normal_um: number;
+  /**
+   * Of the tip along the binormal of the path, µm.
+   */
+  binormal_um: number;
+}
+/**
+ * When a block runs.
+ */
+export interface TimeEntry {
+  /**
+   * Its start, s since the start of the program.
+   */
+  from_s: number;
+  /**
+   * Its end, s.
+   */
+  to_s: number;
+  /**
+   * The speed of the tip at its end, mm/min.
+   */
+  speed_mm_per_min: number;
+}
+/**
  * The same for a changed machine, without Monte Carlo, fast enough to follow a slider.
  */
 export interface ServeWhatIfRequest {
@@ -13346,6 +13642,10 @@ export interface Simulate {
    */
   set_up_given: boolean;
   /**
+   * The result.
+   */
+  verdict: SimulateVerdictEntry;
+  /**
    * The whole time, s.
    */
   time_s: number;
@@ -13400,9 +13700,9 @@ export interface Simulate {
    */
   troubles: IssueEntry[];
   /**
-   * How many more of the same kinds were found, but not listed.
+   * How many stretches of issues there are in all: the sum of `stretches`.
    */
-  troubles_left_out: number;
+  troubles_found: number;
   /**
    * How many functions of the program that move the tool or its place are not executed: they are among the
    * diagnostics.
@@ -13483,6 +13783,23 @@ export interface SimulateMachineEntry {
    * Its kinematic chain from workpiece to tool.
    */
   chain: string;
+}
+/**
+ * The result in a word and a sentence.
+ */
+export interface SimulateVerdictEntry {
+  /**
+   * `good`: nothing endangers part or machine and no time is lost; `bad`; `open`: neither.
+   */
+  standing: "good" | "bad" | "open";
+  /**
+   * Such as `CRITICAL`.
+   */
+  word: string;
+  /**
+   * What that means.
+   */
+  sentence: string;
 }
 /**
  * The motion of one axis.
@@ -14114,163 +14431,6 @@ export interface Trace {
      */
     hint: string;
   }[];
-}
-/**
- * A block as the control reads it.
- */
-export interface ProgrammedEntry {
-  /**
-   * Its moves.
-   */
-  moves: MoveEntry[];
-  /**
-   * What else it does, in words.
-   */
-  events: string[];
-  /**
-   * The program frame.
-   */
-  frame: TraceFrameEntry;
-  /**
-   * Whether the tip of the tool is programmed (RTCP, TRAORI, TCPM).
-   */
-  tool_centre: boolean;
-  /**
-   * Whether the frame is that of a tilted working plane.
-   */
-  tilted_plane: boolean;
-  /**
-   * How the tool axis is interpolated: `axes`, `great circle` or `cone`.
-   */
-  orientation: string;
-  /**
-   * The number of the tool in the spindle.
-   */
-  tool: number;
-  /**
-   * The tool length that is in effect, mm along X, Y and Z.
-   */
-  tool_length_mm: number[];
-}
-/**
- * A move as it is programmed.
- */
-export interface MoveEntry {
-  /**
-   * `rapid`, `line`, `circle`, `thread` and so on.
-   */
-  kind: string;
-  /**
-   * The position of the axes that are named, mm and degrees, in the program frame.
-   */
-  target: {
-    [k: string]: number;
-  };
-  /**
-   * The tool axis if it is programmed as a vector. Unit: 1.
-   *
-   * @minItems 3
-   * @maxItems 3
-   */
-  direction: [number, number, number] | null;
-  /**
-   * The feed with its unit, or `rapid`.
-   */
-  feed: string;
-}
-/**
- * A program frame.
- */
-export interface TraceFrameEntry {
-  /**
-   * Rotation, scale and mirror of X, Y and Z, row by row. Unit: 1.
-   *
-   * @minItems 3
-   * @maxItems 3
-   */
-  linear: [[number, number, number], [number, number, number], [number, number, number]];
-  /**
-   * Its origin: X Y Z A B C U V W, mm and degrees. Unit: mm or deg.
-   *
-   * @minItems 9
-   * @maxItems 9
-   */
-  shift: [number, number, number, number, number, number, number, number, number];
-}
-/**
- * A point of the path.
- */
-export interface NodeEntry {
-  /**
-   * The nominal tool in the workpiece frame.
-   */
-  nominal: ToolPoseEntry;
-  /**
-   * The actual tool there.
-   */
-  actual: ToolPoseEntry;
-  /**
-   * Actual − nominal.
-   */
-  deviation: PathDeviationEntry;
-  /**
-   * The positions of the axes, mm and degrees.
-   */
-  axes: {
-    [k: string]: number;
-  };
-  /**
-   * The time since the start of the program, s.
-   */
-  time_s: number;
-}
-/**
- * A deviation of the tool on its path.
- */
-export interface PathDeviationEntry {
-  /**
-   * Of the tip, µm.
-   *
-   * @minItems 3
-   * @maxItems 3
-   */
-  tip_um: [number, number, number];
-  /**
-   * Of the axis, µrad.
-   *
-   * @minItems 3
-   * @maxItems 3
-   */
-  axis_urad: [number, number, number];
-  /**
-   * Of the tip along the feed, µm.
-   */
-  feed_um: number;
-  /**
-   * Of the tip along the principal normal of the path, µm.
-   */
-  normal_um: number;
-  /**
-   * Of the tip along the binormal of the path, µm.
-   */
-  binormal_um: number;
-}
-/**
- * When a block runs.
- */
-export interface TimeEntry {
-  /**
-   * Its start, s since the start of the program.
-   */
-  from_s: number;
-  /**
-   * Its end, s.
-   */
-  to_s: number;
-  /**
-   * The speed of the tip at its end, mm/min.
-   */
-  speed_mm_per_min: number;
 }
 /**
  * Measured test pieces against their tolerances and their prediction.

@@ -9,6 +9,7 @@ import "./style/measure.css";
 import "./style/predict.css";
 import "./style/simulate.css";
 import "./style/simulate-source.css";
+import "./style/set-up.css";
 import "./style/simulate-time.css";
 import "./style/live.css";
 import { App } from "./app.ts";

@@ -125,5 +125,37 @@ for (const [time_s, text] of [
 ])
   assert.equal(words.duration(time_s), text);
 
+const { setUpText, wrongNumber } = await vite.ssrLoadModule("/src/tabs/simulate/setuptext.ts");
+const nothing = { value: "", unit: "mm" };
+const form = {
+  program: 'a "b".nc',
+  control: "fanuc",
+  offset: "G55",
+  positions: { X: { value: "1,5", unit: "mm" }, C: { value: "-90", unit: "deg" }, Z: nothing },
+  start: { Z: nothing },
+  tools: [
+    { number: "3", name: "end mill", length: "90", diameter: "6", holder_diameter: "32", holder_length: "30" },
+    { number: "", name: "", length: "", diameter: "", holder_diameter: "", holder_length: "" },
+  ],
+  stock: { edges: ["10", "20", "30"], centre: ["", "", "-15"] },
+  fixtures: [{ file: "", placement: "" }],
+};
+const text = setUpText(form);
+for (const line of [
+  'name = "a \\"b\\".nc"',
+  'workpiece_at = "G55"',
+  'X = "1.5 mm"',
+  'C = "-90 deg"',
+  "[tool.3]",
+  'shape = [["6 mm", "60 mm"], ["32 mm", "30 mm"]]',
+  'box = "10 20 30 mm"',
+  'placement = "0 0 -15 mm"',
+])
+  assert.ok(text.split("\n").includes(line), `${line} in\n${text}`);
+assert.ok(!/Z =|start|fixture|\[tool\.\]/.test(text), text);
+assert.equal(wrongNumber("9o"), '"9o" is not a number');
+assert.equal(wrongNumber("0", 0), "must be greater than 0");
+assert.equal(wrongNumber(""), null);
+
 await vite.close();
 console.log("unit checks passed");

@@ -12,6 +12,7 @@ mod report;
 mod settings;
 mod simulate;
 mod simulate_document;
+mod trace;
 
 use crate::request::{Pace, Question, Request, request_schema, work};
 use trueaxis::report::named_schema;
@@ -48,6 +49,7 @@ pub(crate) const QUESTIONS: &[Question] = questions! {
     Quick "evaluate" => evaluate::EvaluateRequest,
     Long "report" => report::ReportRequest,
     Long "simulate" => simulate_document::SimulateRequest,
+    Long "trace" => trace::TraceRequest,
     Quick "simulation-at" => simulate_document::SimulationAtRequest,
     Quick "simulation-block" => simulate_document::SimulationBlockRequest,
     Quick "simulation-path" => simulate_document::SimulationPathRequest,

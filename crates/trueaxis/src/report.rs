@@ -64,8 +64,8 @@ pub use trueaxis_measure::report::*;
 pub use trueaxis_motion::report::*;
 pub use trueaxis_predict::report::*;
 pub use trueaxis_report::{
-    Band, DrawingError, Keyed, Picture, Polar, PolarLine, Scatter, Table, document, named_schema,
-    numbers,
+    Band, DrawingError, Keyed, Picture, Polar, PolarLine, Report, Scatter, Table, document,
+    named_schema, numbers,
 };
 pub use trueaxis_rtcp::report::*;
 pub use trueaxis_standards::report::*;
