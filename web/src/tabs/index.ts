@@ -9,6 +9,7 @@ export const TABS: readonly TabEntry[] = [
   { name: "predict", title: "Predict", load: async () => (await import("./predict.ts")).predict },
   { name: "plan", title: "Plan", load: async () => (await import("./plan.ts")).plan },
   { name: "identify", title: "Identify", load: async () => (await import("./identify.ts")).identify },
+  { name: "compensate", title: "Compensate", load: async () => (await import("./compensate.ts")).compensate },
   { name: "standards", title: "Standards", load: async () => (await import("./standards.ts")).standards },
   { name: "live", title: "Live", load: async () => (await import("./live.ts")).live },
   { name: "report", title: "Report", load: async () => (await import("./report.ts")).report },

@@ -20,7 +20,7 @@ const VERBS: readonly Verb[] = [
   { name: "plan", title: "Plan: what a campaign will show", file: ["campaign"], needs_machine: false },
   { name: "identify", title: "Identify: the machine from readings", file: ["campaign"], needs_machine: false },
   { name: "evaluate", title: "Evaluate: readings by ISO 230", file: ["readings"], needs_machine: false },
-  { name: "verify", title: "Verify: readings against the machine file", file: ["other"], needs_machine: false },
+  { name: "verify", title: "Verify: readings against the machine file", file: ["comparison"], needs_machine: false },
 ];
 
 type Made = ServeReport;

@@ -34,6 +34,7 @@ const PARAMETER: Record<string, string> = {
   predict: "study",
   plan: "campaign",
   identify: "campaign",
+  compensate: "program",
   standards: "path",
   live: "plan",
 };
