@@ -614,7 +614,18 @@ export type FileKind =
 /**
  * A command that has a report.
  */
-export type Verb = "predict" | "simulate" | "plan" | "identify" | "evaluate" | "verify";
+export type Verb =
+  | "predict"
+  | "simulate"
+  | "plan"
+  | "identify"
+  | "evaluate"
+  | "verify"
+  | "diff"
+  | "history"
+  | "certificate"
+  | "laser"
+  | "part";
 /**
  * An issue over a stretch of the path.
  */
@@ -13193,11 +13204,11 @@ export interface ServeReportRequest {
    */
   verb: Verb;
   /**
-   * The file that the command takes.
+   * The file that the command takes; a folder, for `history`.
    */
   file: string;
   /**
-   * The machine file, for `simulate`.
+   * The machine file, for `simulate`; the older one, for `diff`.
    */
   machine?: string | null;
   /**

@@ -143,6 +143,21 @@ impl Project {
         }
     }
 
+    /// The files with these endings in a folder of the project, by name; a file as it is named.
+    pub(crate) fn in_folder(&self, name: &str, endings: &[&str]) -> Result<Vec<PathBuf>, Refusal> {
+        let path = self.path(name)?;
+        let inside = path.canonicalize().is_ok_and(|whole| whole.starts_with(&self.root));
+        let Some(entries) = fs::read_dir(&path).ok().filter(|_| inside) else {
+            return Ok(vec![path]);
+        };
+        let is_file = |entry: &fs::DirEntry| entry.file_type().is_ok_and(|kind| kind.is_file());
+        let files = entries.flatten().filter(is_file).map(|entry| path.join(entry.file_name()));
+        let is_one = |p: &PathBuf| p.extension().is_some_and(|e| endings.iter().any(|x| e == *x));
+        let mut found: Vec<PathBuf> = files.filter(is_one).collect();
+        found.sort();
+        Ok(found)
+    }
+
     /// The name of a folder beside a machine file that is not there, for files that a command would write.
     pub(crate) fn new_folder(&self, machine: &str, target: &str) -> PathBuf {
         let machine = Path::new(machine);

@@ -16,6 +16,7 @@ import {
   changesPanel,
   deviationTable,
   leftTable,
+  tablesVerdict,
   valuesPanel,
   wallPanel,
   type Drawn,
@@ -102,7 +103,8 @@ class CompensateTab implements TabHandle {
   private read(params: Readonly<Record<string, string>>): Choice {
     const { project, machine } = this.app.state;
     const example = project?.examples.find((one) => one.tab === "compensate");
-    const of = KINDS.find(([key]) => key === params.of)?.[0] ?? "program";
+    // A link of the first page names a study only.
+    const of = KINDS.find(([key]) => key === params.of)?.[0] ?? (params.study ? "blank" : "program");
     const alone = Object.keys(params).length === 0 && !machine;
     const program = params.program ?? (alone ? (example?.path ?? null) : null);
     const blank = project?.files.find((file) => file.kind === "blank")?.path ?? null;
@@ -169,7 +171,8 @@ class CompensateTab implements TabHandle {
       this.say(missing);
       return;
     }
-    const asked = JSON.stringify(this.choice);
+    this.fillAxis();
+    let asked = JSON.stringify(this.choice);
     // Coming back to the tab shows what is there.
     if (asked === this.asked) return;
     this.asked = asked;
@@ -178,6 +181,8 @@ class CompensateTab implements TabHandle {
     try {
       await this.prepare();
       if (this.asked !== asked) return;
+      asked = JSON.stringify(this.choice);
+      this.asked = asked;
       await this.ask(asked);
     } catch (error) {
       // Another choice has taken its place: what went wrong with this one is of no interest.
@@ -189,6 +194,13 @@ class CompensateTab implements TabHandle {
     }
   }
 
+  /** The first axis, where none of this machine is chosen. */
+  private fillAxis(): void {
+    const { of, machine, axis } = this.choice;
+    if (of === "values" && this.axes_of === machine && !this.axes.includes(axis))
+      this.choice = { ...this.choice, axis: this.axes[0] ?? "" };
+  }
+
   /** The controls that tables can be made for, and the axes of the machine: once each. */
   private async prepare(): Promise<void> {
     const { of, machine } = this.choice;
@@ -198,8 +210,7 @@ class CompensateTab implements TabHandle {
       this.axes = described.links.map((link) => link.name);
       this.axes_of = machine;
     }
-    if (of === "values" && !this.axes.includes(this.choice.axis))
-      this.choice = { ...this.choice, axis: this.axes[0] ?? "" };
+    this.fillAxis();
     this.showForm();
   }
 
@@ -247,7 +258,7 @@ class CompensateTab implements TabHandle {
       };
       const reply = await this.questions.tables.ask(body, `tables of ${machine}`);
       if (!fresh()) return;
-      this.begin(reply.shown, [
+      this.begin({ ...reply.shown, verdict: tablesVerdict(reply) }, [
         leftTable(reply),
         filesPanel(this.app, reply.made, "Files for the control", "Nothing is written before you download a file."),
         reply.document.notes.length > 0

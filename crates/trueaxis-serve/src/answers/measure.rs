@@ -14,7 +14,10 @@ use std::path::Path;
 use trueaxis::files::disk;
 use trueaxis::input::{CsvTable, Diagnostics};
 use trueaxis::machine::axis::AxisKind;
-use trueaxis::measure::path::{Path as MeasuredPath, read_paths};
+use trueaxis::measure::path::Path as MeasuredPath;
+use trueaxis::measure::virtual_campaign::{
+    Disturb, VirtualCampaign, measure, read_virtual, set_times,
+};
 use trueaxis::measure::{Campaign, Instrument, Readings, read_campaign, readings_file};
 use trueaxis::questions::{Answer, Measure, PlanMeasurement};
 use trueaxis::report::{DiagnosticEntry, MeasurementDocument};
@@ -84,47 +87,78 @@ pub(super) struct SheetPath<'a> {
     stations: usize,
 }
 
-/// The paths that a campaign measures: its own, or those that were chosen.
-fn paths_of(
-    desk: &Desk,
-    name: &str,
-    job: &Job,
-) -> Result<(Campaign, Vec<MeasuredPath>, Diagnostics), Refusal> {
-    let path = desk.project.path(name)?;
-    let (read, mut problems) = read_campaign(&disk(), &path, |root, campaign| {
-        Some((read_paths(root, campaign)?, root.get("candidates").is_some()))
-    });
-    let Some((campaign, (mut paths, is_chosen))) = read.filter(|_| !problems.has_errors()) else {
-        return Err(Refusal::unusable(&problems));
-    };
-    if is_chosen {
-        let control = super::plan::SINUMERIK.to_owned();
-        let (plan, found) = ask(&PlanMeasurement { campaign: path, control, output: None }, job)?;
-        paths = plan.found.paths.into_iter().map(|planned| planned.path).collect();
-        problems = found;
+/// A campaign with its paths: its own, or those that were chosen.
+struct Stations {
+    campaign: Campaign,
+    paths: Vec<MeasuredPath>,
+    /// All stations as a machine without disturbances passes them: with their sides, feeds and times.
+    readings: Readings,
+    problems: Diagnostics,
+}
+
+impl Stations {
+    fn of(desk: &Desk, name: &str, job: &Job) -> Result<Self, Refusal> {
+        let path = desk.project.path(name)?;
+        // Candidates are no stations yet: the plan chooses among them.
+        let (read, mut problems) = read_campaign(&disk(), &path, |root, campaign| {
+            let is_chosen = root.get("candidates").is_some();
+            Some(if is_chosen { None } else { Some(read_virtual(root, campaign, None)?) })
+        });
+        let Some((campaign, real)) = read.filter(|_| !problems.has_errors()) else {
+            return Err(Refusal::unusable(&problems));
+        };
+        let (paths, readings) = match real {
+            Some(real) => {
+                let readings = passed(&campaign, &real);
+                (real.paths, readings)
+            }
+            None => {
+                let control = super::plan::SINUMERIK.to_owned();
+                let question = PlanMeasurement { campaign: path, control, output: None };
+                let (plan, found) = ask(&question, job)?;
+                problems = found;
+                let planned = plan.found.paths.into_iter();
+                let mut paths: Vec<MeasuredPath> = planned.map(|planned| planned.path).collect();
+                set_times(&campaign, &mut paths);
+                let readings = joined(&paths);
+                (paths, readings)
+            }
+        };
+        if readings.len() > MOST_STATIONS {
+            let message = format!("{} stations are more than a sheet holds", readings.len());
+            let hint = "let the control log them, and open the log in Identify";
+            return Err(Refusal::new(422, "too-many-stations", message, hint));
+        }
+        Ok(Self { campaign, paths, readings, problems })
     }
-    let count: usize = paths.iter().map(|path| path.stations.len()).sum();
-    if count == 0 {
-        let message = format!("{}: this campaign has no stations", short(name));
-        let hint = "give it a [[path]] of each instrument, as in examples/04_plan";
-        return Err(Refusal::new(422, "no-stations", message, hint));
-    }
-    if count > MOST_STATIONS {
-        let message = format!("{count} stations are more than a sheet holds");
-        let hint = "let the control log them, and open the log in Identify";
-        return Err(Refusal::new(422, "too-many-stations", message, hint));
-    }
-    Ok((campaign, paths, problems))
+}
+
+/// All stations as a machine without disturbances passes them; what the tables of the true machine do not reach can be
+/// measured all the same.
+fn passed(campaign: &Campaign, real: &VirtualCampaign) -> Readings {
+    let count = real.paths.iter().map(|path| path.stations.len()).sum::<usize>();
+    let disturb = Disturb::none(campaign.instruments.len());
+    let real = VirtualCampaign { disturb, ..real.clone() };
+    let passed = (count <= MOST_STATIONS).then(|| measure(campaign, &real).ok()).flatten();
+    passed.map_or_else(|| joined(&real.paths), |measured| measured.readings)
+}
+
+/// All stations; places stay apart.
+fn joined(paths: &[MeasuredPath]) -> Readings {
+    let mut all = Readings::default();
+    paths.iter().for_each(|path| all.append(&path.stations));
+    all
 }
 
 impl Request for MeasureSheetRequest {
     type Answer<'a> = MeasureSheetAnswer<'a>;
 
     fn answer(self, desk: &Desk, job: &Job) -> Result<Reply<Self>, Refusal> {
-        let (campaign, paths, problems) = paths_of(desk, &self.campaign, job)?;
+        let stations = Stations::of(desk, &self.campaign, job)?;
+        let campaign = &stations.campaign;
         let folder = Path::new(&self.campaign).parent().unwrap_or(Path::new(""));
         let sheets = campaign.instruments.iter().enumerate().filter_map(|(index, instrument)| {
-            let sheet = SheetEntry::of(&campaign, (index as u32, instrument), &paths)?;
+            let sheet = SheetEntry::of(&stations, (index as u32, instrument))?;
             let named = campaign.tables.get(index).and_then(|tables| tables.first());
             let file = match named {
                 Some(path) => path.clone(),
@@ -144,25 +178,21 @@ impl Request for MeasureSheetRequest {
             machine: campaign.machine.name(),
             machine_file: desk.project.name_of(&campaign.machine_path),
             sheets: sheets.collect(),
-            diagnostics: entries(&problems),
+            diagnostics: entries(&stations.problems),
         }))
     }
 }
 
 impl<'a> SheetEntry<'a> {
     /// None for an instrument without stations.
-    fn of(
-        campaign: &Campaign,
-        (index, instrument): (u32, &'a Instrument),
-        all: &'a [MeasuredPath],
-    ) -> Option<Self> {
+    fn of(all: &'a Stations, (index, instrument): (u32, &'a Instrument)) -> Option<Self> {
+        let campaign = &all.campaign;
         let mine = |path: &MeasuredPath| {
             path.stations.instruments.iter().filter(|of| **of == index).count()
         };
-        let paths = all.iter().map(|path| SheetPath { name: &path.name, stations: mine(path) });
-        let mut stations = Readings::default();
-        all.iter().for_each(|path| stations.append(&path.stations));
-        let text = stations.table(&campaign.machine, instrument, index);
+        let paths =
+            all.paths.iter().map(|path| SheetPath { name: &path.name, stations: mine(path) });
+        let text = all.readings.table(&campaign.machine, instrument, index);
         let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned).collect());
         let names: Vec<String> = lines.next()?;
         let columns: Vec<SheetColumn> = names

@@ -114,12 +114,14 @@ impl Request for SaveRequest {
         if current.as_deref().map(version) != self.version {
             let (message, hint) = match self.version {
                 Some(_) => (
-                    "was changed elsewhere since it was opened",
+                    format!("{name} was changed elsewhere since it was opened"),
                     "open it again, or save under another name",
                 ),
-                None => ("is there already", "save under another name: nothing is replaced"),
+                None => (
+                    format!("{name} is there already"),
+                    "save under another name: nothing is replaced",
+                ),
             };
-            let message = format!("{name} {message}");
             return Err(Refusal::new(409, "conflict", message, hint));
         }
         files::write(&path, text).map_err(|e| {

@@ -88,7 +88,8 @@ impl Request for VerifyRequest {
             }
             VerifiedSubject::History => {
                 let limits = self.limits.unwrap_or_default();
-                verified(&VerifyHistory { files: vec![file], limits }, job)
+                let files = desk.project.in_folder(&self.file, &["toml", "json"])?;
+                verified(&VerifyHistory { files, limits }, job)
             }
             VerifiedSubject::Certificate => verified(&Certify { study: file }, job),
             VerifiedSubject::Laser => {

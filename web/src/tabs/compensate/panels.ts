@@ -4,6 +4,7 @@ import { h } from "../../dom.ts";
 import { bars, lineChart, type Figure } from "../../figure/index.ts";
 import type { Series } from "../../figure/chart.ts";
 import { number } from "../../format.ts";
+import type { Shown } from "../measure/shown.ts";
 import { sheetTable, type Cell } from "../measure/table.ts";
 import type { AdaptReply, ProgramHeader, TablesReply, ValuesReply } from "./documents.ts";
 
@@ -187,6 +188,17 @@ export function leftTable({ document }: TablesReply): HTMLElement {
     ],
     note: `The files, read back and applied as the control does, at ${document.left_um.poses} poses, each reached from both sides. A wrong sign is about twice as bad as no table: try one position on the machine first.`,
   });
+}
+
+/** What the tables are good for, in one sentence. */
+export function tablesVerdict({ document }: TablesReply): Shown["verdict"] {
+  const { before_um: before, left_um: left } = document;
+  const better = left.max < before.max;
+  return {
+    standing: better ? "good" : "bad",
+    word: better ? "BETTER" : "NOT BETTER",
+    sentence: `with the tables the tip deviates by up to ${number(left.max, 1)} µm instead of ${number(before.max, 1)} µm over the travel, rms ${number(left.rms, 1)} µm instead of ${number(before.rms, 1)} µm`,
+  };
 }
 
 /** Each error that the tables cannot hold: what it costs without and with them. */
