@@ -14,12 +14,32 @@ const address = (base, hash) => new URL(`#${hash}`, base).href;
 const done = (page) => page.textContent('#tab-measure [data-test="done"]');
 
 /** The virtual readings of the command line. */
-function readings(seed) {
+function readings(file, table, ...options) {
   const folder = mkdtempSync(path.join(tmpdir(), "trueaxis-measure-"));
-  execFileSync(program, ["measure", campaign, "-o", folder, "--seed", String(seed)], { cwd: root });
-  const text = readFileSync(path.join(folder, "probe.csv"), "utf8");
+  execFileSync(program, ["measure", file, "-o", folder, ...options], { cwd: root, stdio: "ignore" });
+  const text = readFileSync(path.join(folder, table), "utf8");
   rmSync(folder, { recursive: true });
   return text;
+}
+
+/** The standard deviation of readings of one target from one side, from all of them. */
+function pooled(text) {
+  const [head, ...lines] = text.split("\n").filter((line) => line && !line.startsWith("#"));
+  const names = head.split(",");
+  const at = (cells, name) => Number(cells[names.indexOf(name)]);
+  const places = new Map();
+  for (const line of lines) {
+    const cells = line.split(",");
+    const place = `${at(cells, "X")} ${at(cells, "X_approach")}`;
+    places.set(place, [...(places.get(place) ?? []), at(cells, "deviation_um")]);
+  }
+  let [square, freedom] = [0, 0];
+  for (const values of places.values()) {
+    const mean = values.reduce((sum, v) => sum + v, 0) / values.length;
+    square += values.reduce((sum, v) => sum + (v - mean) ** 2, 0);
+    freedom += values.length - 1;
+  }
+  return Math.sqrt(square / freedom);
 }
 
 /** A project with the campaign and its machine. */
@@ -88,7 +108,7 @@ test("dropped readings with commas are saved as identify reads them; a file that
   try {
     await page.goto(address(own.address, `measure?campaign=${campaign}`));
     await page.waitForSelector('#tab-measure [data-test="done"]');
-    const text = readings(7);
+    const text = readings(campaign, "probe.csv", "--seed", "7");
     const german = text
       .split("\n")
       .map((line) => (line.startsWith("#") ? line : line.replaceAll(",", ";").replaceAll(".", ",")))
@@ -147,13 +167,53 @@ test("a virtual machine: figures and readings of the command line, put into the 
   const rms = document.channels.map((one) => one.rms_um.toFixed(2));
   for (const one of rms) assert.ok(text.includes(one), one);
   const { text: file } = await downloaded(page, () => page.getByRole("button", { name: "Download probe.csv" }).click());
-  assert.equal(file, readings(7));
+  assert.equal(file, readings(campaign, "probe.csv", "--seed", "7"));
   await page.click('#tab-measure [data-test="put"]');
   await page.waitForFunction(
     (n) => document.querySelector('#tab-measure [data-test="done"]')?.textContent === `${n} of ${n} readings`,
     document.readings,
   );
   await picture(page, "measure-dark");
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("a touch probe reads the axes; feeds go with the readings; each instrument has a sheet", async () => {
+  const { page, context, complaints } = await open(browser, server.address);
+  const heads = () => page.$$eval("#tab-measure .readings-sheet th", (all) => all.map((one) => one.textContent));
+  // The poses of the plan are chosen among candidates; the probe triggers where X, Y and Z stand then.
+  await page.goto(address(server.address, "measure?campaign=examples/04_plan/touch-probe-5-minutes.toml"));
+  await page.waitForSelector('#tab-measure [data-test="done"]', { timeout: 60_000 });
+  assert.deepEqual(await heads(), ["No.", "C", "A", "X", "Y", "Z", ""]);
+  assert.equal(await page.locator('#tab-measure [data-row="0"] input').count(), 3);
+  // What the virtual machine reads fits into the sheet, with its feeds.
+  await page.goto(address(server.address, "measure?campaign=examples/05_identify/probe-ball-two-feeds.toml"));
+  await page.locator("#tab-measure .readings-sheet th", { hasText: "feed_mm_per_min" }).waitFor();
+  await page.click('#tab-measure [data-test="virtual"]');
+  await page.click('#tab-measure [data-test="put"]');
+  const said = page.locator(".status-note", { hasText: "rows" });
+  await said.waitFor();
+  assert.doesNotMatch(await said.textContent(), /not used/);
+  page.on("dialog", (dialog) => dialog.accept());
+  await page.click('#tab-measure [data-test="clear"]');
+  // Every run of a laser repeats its targets; another instrument has another sheet, and a reload keeps it.
+  const lasers = "examples/07_verify/laser-before-after-x.toml";
+  await page.goto(address(server.address, `measure?campaign=${lasers}`));
+  await page.waitForSelector('#tab-measure [data-test="instrument"]');
+  await page.click('#tab-measure [data-test="virtual"]');
+  await page.click('#tab-measure [data-test="put"]');
+  await page.waitForSelector('#tab-measure [data-sheet="repeats"]');
+  const [row] = await table(page, "repeats");
+  // 11 targets from two sides, five runs each.
+  assert.deepEqual([row[0], row[2]], ["deviation", String(22 * 4)]);
+  assert.equal(row[1], shown(pooled(readings(lasers, "laser.csv")), 3));
+  await page.selectOption('#tab-measure [data-test="instrument"]', "laser-workpiece");
+  await page.waitForFunction(() => location.hash.includes("instrument=laser-workpiece"));
+  await page.locator('#tab-measure [data-test="done"]', { hasText: "0 of 110 readings" }).waitFor();
+  await page.reload();
+  await page.locator('#tab-measure [data-test="done"]', { hasText: "0 of 110 readings" }).waitFor();
+  assert.equal(await page.inputValue('#tab-measure [data-test="instrument"]'), "laser-workpiece");
+  await picture(page, "measure-lasers");
   assert.deepEqual(complaints, []);
   await context.close();
 });
