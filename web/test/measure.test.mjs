@@ -65,6 +65,10 @@ test("typed readings: progress, repeatability, a cell that is no number", async 
   const stations = plan.paths.reduce((sum, one) => sum + one.stations, 0);
   assert.equal(await done(page), `0 of ${stations} readings`);
   assert.equal(await page.locator("#tab-measure [data-row]").count(), stations);
+  assert.deepEqual(
+    await page.$$eval("#tab-measure .path-row", (rows) => rows.map((row) => row.textContent)),
+    plan.paths.map((one) => `Path ${one.name}`),
+  );
   // With a comma, a point, a real minus sign.
   await type(page, 0, ["1,5", "−2.25", "+0.5"]);
   assert.equal(await done(page), `1 of ${stations} readings`);
@@ -180,7 +184,7 @@ test("a virtual machine: figures and readings of the command line, put into the 
 
 test("a touch probe reads the axes; feeds go with the readings; each instrument has a sheet", async () => {
   const { page, context, complaints } = await open(browser, server.address);
-  const heads = () => page.$$eval("#tab-measure .readings-sheet th", (all) => all.map((one) => one.textContent));
+  const heads = () => page.$$eval("#tab-measure .readings-sheet thead th", (all) => all.map((one) => one.textContent));
   // The poses of the plan are chosen among candidates; the probe triggers where X, Y and Z stand then.
   await page.goto(address(server.address, "measure?campaign=examples/04_plan/touch-probe-5-minutes.toml"));
   await page.waitForSelector('#tab-measure [data-test="done"]', { timeout: 60_000 });
@@ -188,7 +192,7 @@ test("a touch probe reads the axes; feeds go with the readings; each instrument 
   assert.equal(await page.locator('#tab-measure [data-row="0"] input').count(), 3);
   // What the virtual machine reads fits into the sheet, with its feeds.
   await page.goto(address(server.address, "measure?campaign=examples/05_identify/probe-ball-two-feeds.toml"));
-  await page.locator("#tab-measure .readings-sheet th", { hasText: "feed_mm_per_min" }).waitFor();
+  await page.locator("#tab-measure .readings-sheet th", { hasText: "feed, mm/min" }).waitFor();
   await page.click('#tab-measure [data-test="virtual"]');
   await page.click('#tab-measure [data-test="put"]');
   const said = page.locator(".status-note", { hasText: "rows" });

@@ -164,6 +164,10 @@ assert.equal(sheet.csv(), "# note\nX,deviation_um\n0,1.5\n50.5,-2.5\n");
 // Without positions: one row for each station.
 assert.deepEqual(sheet.take("b.csv", "deviation_um\n1\n2\n"), []);
 assert.equal(sheet.csv(), "X,deviation_um,group\n0,1,0\n100,2,1\n");
+assert.deepEqual(
+  sheet.rows.map((row) => row.path),
+  ["X", "X"],
+);
 assert.throws(() => sheet.take("c.csv", "deviation_um\n1\n"), /1 rows without positions, and there are 2 stations/);
 assert.throws(() => sheet.take("d.csv", "X,angle_urad\n1,2\n"), /no column deviation_um/);
 

@@ -4,7 +4,6 @@ import type { ServeMeasure, ServeMeasureCheck, ServeMeasureSheet } from "../../t
 import { diagnosticList, split, type App, type Tab, type TabHandle } from "../app.ts";
 import { latestOnly, Refusal, type Request } from "../api.ts";
 import { fill, h } from "../dom.ts";
-import { withUnit } from "../format.ts";
 import { fileSelect, isAbort, Question, showRefusal } from "./measure/ask.ts";
 import { dropOn, handOver, type TextFile } from "./measure/drop.ts";
 import { baseName, fetchMade, filesPanel } from "./measure/made.ts";
@@ -54,7 +53,7 @@ class MeasureTab implements TabHandle {
     this.app = app;
     this.sheets_question = new Question(app, "measure-sheet");
     this.virtual_question = new Question(app, "measure");
-    const { left, right } = split(host, "measure", 0.54);
+    const { left, right } = split(host, "measure", 0.6);
     const scroll = h("div", { class: "scroll" }, this.sheet_head, this.view.element);
     left.append(scroll);
     this.open_file = dropOn(host, app, "Open readings …", (file) => this.take(file));
@@ -264,7 +263,7 @@ class MeasureTab implements TabHandle {
       const draft = JSON.parse(localStorage.getItem(this.key(sheet)) ?? "null") as Draft | null;
       const width = sheet.header.columns.length;
       if (!draft?.rows.every((cells) => cells.length === width)) return;
-      sheet.rows = draft.rows.map((cells) => ({ cells }));
+      sheet.restore(draft.rows);
       sheet.head = draft.head;
     } catch {
       // Not what this page wrote.
@@ -531,11 +530,6 @@ class MeasureTab implements TabHandle {
       this.virtual,
       headPanel(
         reply.shown,
-        h(
-          "p",
-          { class: "muted" },
-          `Takes ${withUnit(reply.document.time_s, 0, "s")} at the machine; ${count(reply.document.lost, "reading")} lost.`,
-        ),
         own >= 0
           ? h(
               "button",

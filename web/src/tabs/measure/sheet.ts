@@ -8,6 +8,8 @@ export type SheetHeader = ServeMeasureSheet["sheets"][number];
 /** One reading: a cell for each column of the sheet. */
 export interface Row {
   cells: string[];
+  /** The name of its path, where that is known. */
+  path?: string | undefined;
 }
 
 /** What is wrong with a cell, by its place. */
@@ -56,7 +58,23 @@ export class Sheet {
   }
 
   private empty(): Row[] {
-    return this.header.rows.map((cells) => ({ cells: [...cells] }));
+    return this.header.rows.map((cells, i) => ({ cells: [...cells], path: this.pathOf(i) }));
+  }
+
+  /** The name of the path of a station, counted from 0. */
+  private pathOf(station: number): string | undefined {
+    let before = 0;
+    for (const { name, stations } of this.header.paths) {
+      before += stations;
+      if (station < before) return name;
+    }
+    return undefined;
+  }
+
+  /** The cells that were kept; paths are known as long as there is one row for each station. */
+  restore(rows: readonly string[][]): void {
+    const known = rows.length === this.header.rows.length;
+    this.rows = rows.map((cells, i) => ({ cells, path: known ? this.pathOf(i) : undefined }));
   }
 
   /** Columns that are read, not commanded. */
@@ -76,10 +94,11 @@ export class Sheet {
 
   /** One more reading in the place of a row, right after it. */
   repeat(row: number): void {
-    const cells = this.rows[row]?.cells;
-    if (!cells) return;
+    const of = this.rows[row];
+    if (!of) return;
     const { read } = this;
-    this.rows.splice(row + 1, 0, { cells: cells.map((cell, j) => (read.includes(j) ? "" : cell)) });
+    const cells = of.cells.map((cell, j) => (read.includes(j) ? "" : cell));
+    this.rows.splice(row + 1, 0, { cells, path: of.path });
   }
 
   /** Rows with all of their readings. */
@@ -151,18 +170,17 @@ export class Sheet {
         `${name} has ${rest.length} rows without positions, and there are ${this.header.rows.length} stations`,
         "Give the axes as columns (X, Y, Z in mm, A, B, C in degrees), or one row for each station.",
       );
-    this.rows = rest.map((line, i) => {
+    const rows = rest.map((line, i) => {
       const cells = cellsOf(line);
       const station = has_places ? [] : (this.header.rows[i] ?? []);
-      return {
-        cells: columns.map((_, j) => {
-          const from = at[j] ?? -1;
-          const text = from < 0 ? (station[j] ?? "") : (cells[from] ?? "");
-          // A number of the table; anything else stays, and is named.
-          return plainNumber(text) ?? text;
-        }),
-      };
+      return columns.map((_, j) => {
+        const from = at[j] ?? -1;
+        const text = from < 0 ? (station[j] ?? "") : (cells[from] ?? "");
+        // A number of the table; anything else stays, and is named.
+        return plainNumber(text) ?? text;
+      });
     });
+    this.restore(rows);
     this.head = head;
     const unused = names.filter((one) => one && !columns.some((column) => column.name === one));
     return unused.length > 0 ? [`not used: ${unused.join(", ")}`] : [];

@@ -3,6 +3,8 @@
 import { fill, h } from "../../dom.ts";
 import { plainNumber, type Sheet } from "./sheet.ts";
 
+const FEED = "feed_mm_per_min";
+
 /** More rows than this make a table slow. */
 const MOST_ROWS = 400;
 
@@ -27,11 +29,20 @@ export class SheetView {
     if (!sheet) return;
     const { columns } = sheet.header;
     const to = Math.min(sheet.rows.length, this.from + MOST_ROWS);
-    const head = shownColumns(sheet).map((j) => {
+    const shown = shownColumns(sheet);
+    const head = shown.map((j) => {
       const { name, read } = columns[j] as { name: string; read: boolean };
-      return h("th", { class: `number ${read ? "read" : ""}`, scope: "col" }, name);
+      return h(
+        "th",
+        { class: `number ${read ? "read" : ""}`, scope: "col", title: name },
+        name === FEED ? "feed, mm/min" : name,
+      );
     });
-    const rows = sheet.rows.slice(this.from, to).map((row, k) => this.row(sheet, row.cells, this.from + k));
+    const rows = sheet.rows.slice(this.from, to).flatMap((row, k) => {
+      const begins = row.path !== undefined && (k === 0 || sheet.rows[this.from + k - 1]?.path !== row.path);
+      const heading = h("tr", { class: "path-row" }, h("th", { colspan: head.length + 2 }, `Path ${row.path}`));
+      return [...(begins ? [heading] : []), this.row(sheet, shown, this.from + k)];
+    });
     fill(
       this.element,
       sheet.rows.length > MOST_ROWS ? this.pages(sheet.rows.length) : null,
@@ -61,8 +72,9 @@ export class SheetView {
     return h("div", { class: "row" }, select, h("span", { class: "muted" }, `of ${count}`));
   }
 
-  private row(sheet: Sheet, cells: string[], i: number): HTMLElement {
+  private row(sheet: Sheet, shown: readonly number[], i: number): HTMLElement {
     const { columns } = sheet.header;
+    const cells = sheet.rows[i]?.cells ?? [];
     const one = (text: string, j: number): HTMLElement => {
       const column = columns[j];
       if (!column?.read) return h("td", { class: "number muted" }, short(text));
@@ -91,9 +103,9 @@ export class SheetView {
     };
     return h(
       "tr",
-      { dataRow: i, title: rest(sheet, cells) },
+      { dataRow: i, title: rest(sheet, shown, cells) },
       h("td", { class: "number muted" }, String(i + 1)),
-      shownColumns(sheet).map((j) => one(cells[j] ?? "", j)),
+      shown.map((j) => one(cells[j] ?? "", j)),
       h(
         "td",
         {},
@@ -126,13 +138,13 @@ export class SheetView {
 
 /** Positions, readings and feed; sides, directions, groups and times stand in the file and in the hint of a row. */
 function shownColumns(sheet: Sheet): number[] {
+  const has_feeds = (j: number): boolean => sheet.rows.some((row) => row.cells[j] !== "0");
   return sheet.header.columns.flatMap(({ name, read }, j) =>
-    read || /^[A-Z]\d?$/.test(name) || name === "feed_mm_per_min" ? [j] : [],
+    read || /^[A-Z]\d?$/.test(name) || (name === FEED && has_feeds(j)) ? [j] : [],
   );
 }
 
-function rest(sheet: Sheet, cells: readonly string[]): string {
-  const shown = shownColumns(sheet);
+function rest(sheet: Sheet, shown: readonly number[], cells: readonly string[]): string {
   const others = sheet.header.columns.flatMap(({ name }, j) =>
     shown.includes(j) || cells[j] === "0" ? [] : [`${name} ${short(cells[j] ?? "")}`],
   );
