@@ -296,6 +296,8 @@ class MeasureTab implements TabHandle {
   private take(file: TextFile): void {
     const { sheet } = this;
     if (!sheet) return;
+    const words = `Replace ${count(sheet.done, "reading")} of ${sheet.header.instrument} by those of ${file.name}?`;
+    if (sheet.done > 0 && !window.confirm(words)) return;
     try {
       const unused = sheet.take(file.name, file.text);
       this.view.show(sheet);
