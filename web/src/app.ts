@@ -42,6 +42,8 @@ export interface Progress {
 interface Mounted {
   host: HTMLElement;
   handle: TabHandle | null;
+  /** Its module is loaded. */
+  ready: Promise<void>;
 }
 
 export class App {
@@ -49,6 +51,8 @@ export class App {
   private state_: State = { project: null, machine: null, tab: "start", connection: "connecting" };
   private readonly listeners = new Set<(state: Readonly<State>) => void>();
   private readonly mounted = new Map<string, Mounted>();
+  /** How often the address has changed. */
+  private turns = 0;
   private readonly bar = h("header", { class: "bar" });
   private readonly main = h("main", { class: "main", id: "main", tabindex: "-1" });
   private readonly tabs = h("nav", { class: "tabs", role: "tablist", ariaLabel: "Verbs" });
@@ -134,6 +138,7 @@ export class App {
     const entry = TABS.find((tab) => tab.name === name) ?? TABS[0];
     if (!entry) return;
     const params = Object.fromEntries(new URLSearchParams(query));
+    const turn = ++this.turns;
     const before = this.mounted.get(this.state_.tab);
     if (this.state_.tab !== entry.name) before?.handle?.hide?.();
     this.set({ tab: entry.name, ...(params.machine ? { machine: params.machine } : {}) });
@@ -141,7 +146,8 @@ export class App {
     try {
       const now = await this.mountTab(entry);
       for (const [key, { host }] of this.mounted) host.hidden = key !== this.state_.tab;
-      if (this.state_.tab === entry.name) now.handle?.open?.(params);
+      // While its module was loaded the address may have changed again.
+      if (turn === this.turns) now.handle?.open?.(params);
     } catch (error) {
       this.fail(error);
     }
@@ -149,18 +155,24 @@ export class App {
 
   private async mountTab(entry: TabEntry): Promise<Mounted> {
     const there = this.mounted.get(entry.name);
-    if (there) return there;
+    if (there) {
+      await there.ready;
+      return there;
+    }
     const host = h("section", {
       class: `tab tab-${entry.name}`,
       id: `tab-${entry.name}`,
       role: "tabpanel",
       ariaLabel: entry.title,
     });
-    const fresh: Mounted = { host, handle: null };
+    const load = async (): Promise<void> => {
+      fresh.handle = (await entry.load()).mount(host, this);
+    };
+    const fresh: Mounted = { host, handle: null, ready: Promise.resolve() };
     this.mounted.set(entry.name, fresh);
     this.main.append(host);
-    const tab = await entry.load();
-    fresh.handle = tab.mount(host, this);
+    fresh.ready = load();
+    await fresh.ready;
     return fresh;
   }
 

@@ -6,6 +6,7 @@ import "./style/scene.css";
 import "./style/tabs.css";
 import "./style/describe.css";
 import "./style/measure.css";
+import "./style/compensate.css";
 import "./style/predict.css";
 import "./style/simulate.css";
 import "./style/simulate-source.css";

@@ -206,7 +206,9 @@ test("why here: the contributions are those of `trueaxis trace`", async () => {
   await page.click('[data-test="why-here"]');
   await page.waitForSelector(".why-here table");
   // The command takes the number N of a block.
-  const block = readFileSync(path.join(root, ring), "utf8").split("\n")[worst.line - 1].match(/^N(\d+)/)[1];
+  const block = readFileSync(path.join(root, ring), "utf8")
+    .split("\n")
+    [worst.line - 1].match(/^N(\d+)/)[1];
   const { budget, deviation, line } = await cli("trace", engraver, ring, "--block", block);
   assert.equal(line, worst.line);
   const length = (v) => Math.hypot(...v);

@@ -643,6 +643,10 @@ class CompensateProgramDocument(Record):
         tip_between_um: CompensateProgramDocument.LineValue
         #: Of the tool axis between the ends, µrad.
         axis_between_urad: CompensateProgramDocument.LineValue
+        #: Root mean square of the tip over the ends of blocks, µm.
+        tip_at_ends_rms_um: float
+        #: Of the tool axis over the ends of blocks, µrad.
+        axis_at_ends_rms_urad: float
 
     class LineValue(Record):
         """A value and the line of the program where it occurs."""
