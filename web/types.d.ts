@@ -610,6 +610,7 @@ export type FileKind =
   | "certificate"
   | "measured"
   | "blank"
+  | "heading"
   | "other";
 /**
  * A command that has a report.
@@ -13225,6 +13226,10 @@ export interface ServeReportRequest {
    * The control of the programs, for `plan`.
    */
   dialect?: string | null;
+  /**
+   * The file of its heading, to be filed and signed.
+   */
+  heading?: string | null;
 }
 /**
  * A report that was made.
@@ -13242,6 +13247,14 @@ export interface ServeReport {
    * A name for the file.
    */
   name: string;
+  /**
+   * The address of the same as PDF; null where this build writes none.
+   */
+  pdf: string | null;
+  /**
+   * What was found in the heading, and characters that no font has.
+   */
+  diagnostics: DiagnosticEntry[];
 }
 /**
  * Saves a file that an answer made, under its name or another one with the same ending. A file that is there is replaced

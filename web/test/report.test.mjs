@@ -67,3 +67,26 @@ test("readings by a standard; what cannot be reported says why", async () => {
   assert.equal(await page.locator(".report-frame").count(), 0);
   assert.deepEqual(complaints, []);
 });
+
+test("a heading stands above the report, and a build with PDF saves one", async () => {
+  const { page, complaints } = await open(browser, server.address);
+  await page.goto(new URL(`#report?verb=evaluate&file=${LASER}&standard=iso230-2`, server.address).href);
+  await made(page);
+  await page.getByLabel("Heading to be filed and signed").selectOption("examples/07_verify/report-heading.toml");
+  await page.click("text=Make the report");
+  await page.waitForFunction(() =>
+    document.querySelector(".report-frame")?.contentDocument?.body?.textContent?.includes("Example Turbines"),
+  );
+  const text = await page.frameLocator(".report-frame").locator("body").textContent();
+  for (const words of ["2026-117", "K 2026-0042", "measured: name, date, signature", "made by trueaxis"])
+    assert.ok(text.includes(words), words);
+  const pdf = page.locator('[data-test="save-pdf"]');
+  if (await pdf.isEnabled()) {
+    const [download] = await Promise.all([page.waitForEvent("download"), pdf.click()]);
+    assert.equal(download.suggestedFilename(), "x-axis-laser-evaluate.pdf");
+    assert.match(readFileSync(await download.path(), "latin1"), /^%PDF-1\.[\s\S]*%%EOF\s*$/);
+  } else {
+    assert.match(await pdf.getAttribute("title"), /writes no PDF/);
+  }
+  assert.deepEqual(complaints, []);
+});

@@ -369,7 +369,7 @@ mod tests {
             let mut second = 0;
             let mut seconds: Vec<u32> =
                 (0..count).map(|_| (second += random(), second).1).collect();
-            // A pause that no one may take for trouble.
+            // A pause without any issue.
             seconds.iter_mut().skip(count / 2).for_each(|s| *s += 1_000_000);
             let worst_at = seconds[count / 3];
             let list = logged(&seconds, worst_at);

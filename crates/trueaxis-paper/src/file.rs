@@ -72,6 +72,13 @@ impl ReportFile {
     }
 }
 
+/// Says which characters of a report no font has.
+pub fn missing_glyphs(missing: &str, place: Place, problems: &mut Diagnostics) {
+    let message = format!("no font has the characters `{missing}`: boxes stand for them");
+    let hint = "install a font that has them, such as Noto Sans CJK, or write an HTML report";
+    problems.warn("missing-glyph", place, message, hint);
+}
+
 fn form(path: &Path, problems: &mut Diagnostics) -> Option<Form> {
     let place = Place::whole(&path.display().to_string());
     let Some(form) = Form::of(path) else {
@@ -89,7 +96,7 @@ fn form(path: &Path, problems: &mut Diagnostics) -> Option<Form> {
 
 /// The day, as ISO 8601 writes it; that of `SOURCE_DATE_EPOCH` (seconds) where it is set, so that the same input gives the
 /// same file.
-fn today() -> String {
+pub fn today() -> String {
     let stated = std::env::var("SOURCE_DATE_EPOCH").ok().and_then(|text| text.parse().ok());
     let stated = stated.and_then(|seconds| jiff::Timestamp::from_second(seconds).ok());
     match stated {

@@ -14,7 +14,7 @@ const MOST_SIGNATURES: usize = 12;
 const MORE: [(&str, &str); 3] =
     [("machine", "machine"), ("conditions", "conditions"), ("remarks", "remarks")];
 
-/// Reads `[report]` of a file; files that it names stand beside it. Nothing with errors.
+/// Reads `[report]` of a file; paths in it start in its folder. Nothing with errors.
 ///
 /// ```
 /// use trueaxis_input::{Diagnostics, Files};

@@ -22,11 +22,12 @@ mod heading;
 #[cfg(feature = "pdf")]
 mod pdf;
 
-pub use file::ReportFile;
+pub use file::{ReportFile, missing_glyphs, today};
 pub use heading::read_heading;
 
 use std::fmt;
 use std::path::Path;
+pub use trueaxis_report::Heading;
 use trueaxis_report::Report;
 
 /// What a file of a report contains.
@@ -60,7 +61,7 @@ impl Form {
 pub struct Printed {
     /// The content of the file.
     pub bytes: Vec<u8>,
-    /// Characters of the text that no font at hand has: an empty box stands for each of them. Always empty for HTML.
+    /// Characters of the text that no available font has: an empty box stands for each of them. Always empty for HTML.
     pub missing: String,
 }
 

@@ -61,6 +61,3 @@ fn look(frame: &Frame, found: &mut BTreeSet<char>) {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -62,11 +62,17 @@ impl Job {
     }
 }
 
+/// A report in one form.
+pub(crate) struct KeptReport {
+    pub(crate) bytes: Vec<u8>,
+    pub(crate) media_type: &'static str,
+}
+
 /// The shared desk of all windows.
 pub(crate) struct Desk {
     pub(crate) project: Project,
     pub(crate) simulations: Kept<Simulated>,
-    pub(crate) reports: Kept<String>,
+    pub(crate) reports: Kept<KeptReport>,
     pub(crate) made: Kept<Made>,
     /// One file is saved at a time: between looking at its version and replacing it.
     pub(crate) saving: Mutex<()>,

@@ -65,6 +65,8 @@ pub(crate) enum FileKind {
     Measured,
     /// A path on a measured blank.
     Blank,
+    /// The heading of a report.
+    Heading,
     /// Another TOML file.
     Other,
 }
@@ -274,6 +276,7 @@ fn kind_of_toml(name: &str, text: &str) -> FileKind {
         () if begins(&["[instrument.", "[[path]]"]) => FileKind::Campaign,
         // After studies, which may compare with a paper.
         () if begins(&["[compare]"]) => FileKind::Comparison,
+        () if begins(&["[report]"]) => FileKind::Heading,
         () if begins(&["[determination]"]) => FileKind::Certificate,
         () if begins(&["[layer]"]) && begins(&["[wall]"]) => FileKind::Blank,
         () if begins(&["[correction]"]) && begins(&["[control]"]) => FileKind::Live,

@@ -151,9 +151,8 @@ async fn open_socket(State(shared): State<Shared>, upgrade: WebSocketUpgrade) ->
 
 async fn report(State(shared): State<Shared>, Path(number): Path<u64>) -> Response {
     match shared.desk.reports.of_number(number) {
-        Some(html) => {
-            let kind = [(header::CONTENT_TYPE, "text/html; charset=utf-8")];
-            (kind, html.as_str().to_owned()).into_response()
+        Some(report) => {
+            ([(header::CONTENT_TYPE, report.media_type)], report.bytes.clone()).into_response()
         }
         None => {
             let message = "this report is not kept any more";

@@ -41,7 +41,16 @@ class ReportTab implements TabHandle {
   private readonly machine = h("select", { ariaLabel: "Machine file" });
   private readonly standard = h("select", { ariaLabel: "Standard" });
   private readonly make = h("button", { class: "primary", onclick: () => void this.run() }, "Make the report");
-  private readonly save = h("button", { disabled: true, onclick: () => void this.saveFile() }, "Save HTML");
+  private readonly save = h("button", { disabled: true, onclick: () => void this.saveAs("html") }, "Save HTML");
+  private readonly heading = h("select", {
+    ariaLabel: "Heading to be filed and signed",
+    title: "A TOML file with [report]: number, date, customer, operator, logo, signatures",
+  });
+  private readonly pdf = h(
+    "button",
+    { disabled: true, dataTest: "save-pdf", onclick: () => void this.saveAs("pdf") },
+    "Save PDF",
+  );
   private readonly print = h(
     "button",
     {
@@ -72,8 +81,9 @@ class ReportTab implements TabHandle {
           this.file,
           this.machine,
           this.standard,
+          this.heading,
           this.make,
-          h("span", { class: "report-after" }, this.note, this.save, this.print),
+          h("span", { class: "report-after" }, this.note, this.save, this.pdf, this.print),
         ),
         this.page,
       ),
@@ -117,7 +127,7 @@ class ReportTab implements TabHandle {
       h(
         "p",
         { class: "report-empty muted" },
-        "Choose what to report on. The report is one HTML file with all figures in it: it opens offline, and the browser prints it or saves it as PDF.",
+        "Choose what to report on. The report is one HTML file with all figures in it: it opens offline, and the browser prints it or saves it as PDF. With a heading it can be filed and signed (docs/reference/report.md).",
       ),
     );
   }
@@ -138,6 +148,10 @@ class ReportTab implements TabHandle {
     if (file) this.file.value = file;
     fill(this.machine, of(["machine"], machine));
     if (machine) this.machine.value = machine;
+    const chosen = this.heading.value;
+    fill(this.heading, h("option", { value: "" }, "no heading"), of(["heading"], undefined));
+    this.heading.value = chosen;
+    this.heading.hidden = this.heading.options.length < 2;
     this.machine.hidden = !verb.needs_machine;
     this.standard.hidden = verb.name !== "evaluate";
     this.make.disabled = this.file.options.length === 0;
@@ -151,6 +165,7 @@ class ReportTab implements TabHandle {
       file: this.file.value,
       ...(verb.needs_machine ? { machine: this.machine.value } : {}),
       ...(verb.name === "evaluate" ? { standard: this.standard.value } : {}),
+      ...(this.heading.value ? { heading: this.heading.value } : {}),
     };
     this.stop.abort();
     const stop = new AbortController();
@@ -171,7 +186,7 @@ class ReportTab implements TabHandle {
   private take(made: Made | null): void {
     this.made = made;
     this.frame = null;
-    this.save.disabled = this.print.disabled = true;
+    this.save.disabled = this.pdf.disabled = this.print.disabled = true;
     this.note.textContent = "";
     this.showEmpty();
     if (!made) return;
@@ -185,15 +200,23 @@ class ReportTab implements TabHandle {
     });
     this.note.textContent = `${made.name}, ${bytes(made.bytes)}`;
     this.save.disabled = false;
+    this.pdf.disabled = made.pdf === null;
+    this.pdf.title = made.pdf === null ? "This build writes no PDF: print it, or take the Debian package" : "";
+    const warning = made.diagnostics.map((d) => d.message).join("; ");
+    if (warning) this.note.textContent += `: ${warning}`;
     fill(this.page, this.frame);
   }
 
-  private async saveFile(): Promise<void> {
-    if (!this.made) return;
+  private async saveAs(form: "html" | "pdf"): Promise<void> {
+    const { made } = this;
+    const url = form === "pdf" ? made?.pdf : made?.url;
+    if (!made || !url) return;
+    const name = made.name.replace(/html$/, form);
     try {
-      const response = await fetch(this.made.url.replace(/^\//, ""));
-      if (!response.ok) throw new Error(`the server no longer has ${this.made.name}: make the report again`);
-      download(this.made.name, new Blob([await response.text()], { type: "text/html" }));
+      const response = await fetch(url.replace(/^\//, ""));
+      if (!response.ok) throw new Error(`the server no longer has ${name}: make the report again`);
+      const type = form === "pdf" ? "application/pdf" : "text/html";
+      download(name, new Blob([await response.arrayBuffer()], { type }));
     } catch (error) {
       this.app.fail(error);
     }

@@ -189,7 +189,7 @@ class SimulateTab implements TabHandle {
     const dropped = this.dropped;
     if (!program || dropped) {
       const message = dropped
-        ? `${dropped.name} is in no folder, so no set-up can stand beside it`
+        ? `${dropped.name} is in no folder, so no set-up can be saved with it`
         : "no program is chosen";
       this.app.fail(new Refusal("set-up", message, "Put the program into the project folder and choose it there."));
       return;

@@ -4,17 +4,20 @@ use super::evaluate::EvaluateRequest;
 use super::plan::SINUMERIK;
 use super::simulate_document::SimulateRequest;
 use crate::body::needed;
-use crate::desk::{Desk, Job};
-use crate::refusal::Refusal;
+use crate::desk::{Desk, Job, KeptReport};
+use crate::refusal::{Refusal, entries};
 use crate::request::{Reply, Request, ask};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
+use trueaxis::files::disk;
+use trueaxis::input::{Diagnostics, Place};
 use trueaxis::questions::{
     Answer, Certify, CompareCalibrations, Identify, LaserBeforeAfter, PlanMeasurement, Predict,
     Question, Simulate, VerifyHistory, VerifyPart, VerifyReadings,
 };
-use trueaxis::report::DrawingError;
+use trueaxis::report::{DiagnosticEntry, Report};
+use trueaxis_paper::{Form, Heading, PrintError, missing_glyphs, print, read_heading, today};
 
 /// Makes a report.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -30,6 +33,8 @@ pub(super) struct ReportRequest {
     standard: Option<String>,
     /// The control of the programs, for `plan`.
     dialect: Option<String>,
+    /// The file of its heading, to be filed and signed.
+    heading: Option<String>,
 }
 
 /// A command that has a report.
@@ -80,67 +85,107 @@ impl Verb {
 
 /// A report that was made.
 #[derive(Debug, Serialize, JsonSchema)]
-pub(super) struct ReportAnswer {
+pub(super) struct ReportAnswer<'a> {
     /// Its address on the server; only the last few reports are kept.
     url: String,
     /// Its size in bytes.
     bytes: usize,
     /// A name for the file.
     name: String,
+    /// The address of the same as PDF; null where this build writes none.
+    pdf: Option<String>,
+    /// What was found in the heading, and characters that no font has.
+    diagnostics: Vec<DiagnosticEntry<'a>>,
 }
 
 impl Request for ReportRequest {
-    type Answer<'a> = ReportAnswer;
+    type Answer<'a> = ReportAnswer<'a>;
 
     fn answer(self, desk: &Desk, job: &Job) -> Result<Reply<Self>, Refusal> {
         let path = desk.project.path(&self.file)?;
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
         let name = format!("{stem}-{}.html", self.verb.name());
-        let page = self.page(desk, path, job)?;
-        let bytes = page.len();
-        let (number, _) = desk.reports.put(page);
-        Ok(Reply::json(&ReportAnswer { url: format!("/report/{number}"), bytes, name }))
+        let mut problems = Diagnostics::new();
+        let heading = match &self.heading {
+            Some(file) => {
+                let read = read_heading(&disk(), &desk.project.path(file)?, &mut problems);
+                Some(read.ok_or_else(|| Refusal::unusable(&problems))?)
+            }
+            None => None,
+        };
+        let Made { html, pdf, missing } = self.made(desk, path, job, heading)?;
+        if !missing.is_empty() {
+            missing_glyphs(&missing, Place::whole(&name), &mut problems);
+        }
+        let bytes = html.len();
+        let kept = |bytes, media_type| desk.reports.put(KeptReport { bytes, media_type }).0;
+        let pdf = pdf.map(|bytes| format!("/report/{}", kept(bytes, "application/pdf")));
+        let url = format!("/report/{}", kept(html, "text/html; charset=utf-8"));
+        let diagnostics = entries(&problems);
+        Ok(Reply::json(&ReportAnswer { url, bytes, name, pdf, diagnostics }))
     }
 }
 
+/// A report in all forms that this build prints.
+struct Made {
+    html: Vec<u8>,
+    pdf: Option<Vec<u8>>,
+    missing: String,
+}
+
 impl ReportRequest {
-    fn page(self, desk: &Desk, file: PathBuf, job: &Job) -> Result<String, Refusal> {
+    fn made(
+        self,
+        desk: &Desk,
+        file: PathBuf,
+        job: &Job,
+        heading: Option<Heading>,
+    ) -> Result<Made, Refusal> {
         match self.verb {
-            Verb::Predict => page(&Predict { study: file, ..Predict::default() }, job),
+            Verb::Predict => made(&Predict { study: file, ..Predict::default() }, job, heading),
             Verb::Simulate => {
                 let machine = needed(self.machine, "machine")?;
                 let question = SimulateRequest::of(machine, self.file).question(desk, job)?;
-                page(&Simulate { pictures: true, ..question }, job)
+                made(&Simulate { pictures: true, ..question }, job, heading)
             }
             Verb::Plan => {
                 let control = self.dialect.unwrap_or_else(|| SINUMERIK.to_owned());
-                page(&PlanMeasurement { campaign: file, control, output: None }, job)
+                made(&PlanMeasurement { campaign: file, control, output: None }, job, heading)
             }
-            Verb::Identify => page(&Identify { campaign: file, ..Identify::default() }, job),
+            Verb::Identify => {
+                made(&Identify { campaign: file, ..Identify::default() }, job, heading)
+            }
             Verb::Evaluate => {
                 let standard = needed(self.standard, "standard")?;
-                page(&EvaluateRequest::of(standard, self.file).question(desk)?, job)
+                made(&EvaluateRequest::of(standard, self.file).question(desk)?, job, heading)
             }
-            Verb::Verify => page(&VerifyReadings { file }, job),
+            Verb::Verify => made(&VerifyReadings { file }, job, heading),
             Verb::Diff => {
                 let old = desk.project.path(&needed(self.machine, "machine")?)?;
-                page(&CompareCalibrations { old, new: file }, job)
+                made(&CompareCalibrations { old, new: file }, job, heading)
             }
             Verb::History => {
                 let files = desk.project.in_folder(&self.file, &["toml", "json"])?;
-                page(&VerifyHistory { files, limits: Vec::new() }, job)
+                made(&VerifyHistory { files, limits: Vec::new() }, job, heading)
             }
-            Verb::Certificate => page(&Certify { study: file }, job),
-            Verb::Laser => page(&LaserBeforeAfter { campaign: file, output: None }, job),
-            Verb::Part => page(&VerifyPart { file }, job),
+            Verb::Certificate => made(&Certify { study: file }, job, heading),
+            Verb::Laser => made(&LaserBeforeAfter { campaign: file, output: None }, job, heading),
+            Verb::Part => made(&VerifyPart { file }, job, heading),
         }
     }
 }
 
-fn page<Q: Question>(question: &Q, job: &Job) -> Result<String, Refusal> {
-    ask(question, job)?.0.page().map_err(undrawn)
+fn made<Q: Question>(question: &Q, job: &Job, heading: Option<Heading>) -> Result<Made, Refusal> {
+    let answer = ask(question, job)?.0;
+    let report = || Report { heading: heading.clone(), date: today(), ..answer.report() };
+    let html = print(&report(), Form::Html).map_err(|e| unprinted(&e))?.bytes;
+    if !Form::Pdf.is_there() {
+        return Ok(Made { html, pdf: None, missing: String::new() });
+    }
+    let printed = print(&report(), Form::Pdf).map_err(|e| unprinted(&e))?;
+    Ok(Made { html, pdf: Some(printed.bytes), missing: printed.missing })
 }
 
-fn undrawn(error: DrawingError) -> Refusal {
+fn unprinted(error: &PrintError) -> Refusal {
     Refusal::new(422, "no-report", error.to_string(), "the numbers are in the other tabs")
 }

@@ -21,7 +21,7 @@ export interface ToolForm {
   /** From the gauge line to the tip, mm. */
   length: string;
   diameter: string;
-  /** Diameter and length of the holder behind the cutter, mm. */
+  /** Diameter and length of the holder above the cutter, mm. */
   holder_diameter: string;
   holder_length: string;
 }

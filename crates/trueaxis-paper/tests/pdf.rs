@@ -1,6 +1,11 @@
-use super::*;
-use crate::{Form, print};
-use trueaxis_report::{Columns, Figure, Heading, Item, Logo, LogoKind, Section, Standing, Table};
+//! Reports as PDF: the same bytes, text that is no markup, headings, glyphs.
+
+#![cfg(feature = "pdf")]
+
+use trueaxis_paper::{Form, print};
+use trueaxis_report::{
+    Columns, Figure, Heading, Item, Logo, LogoKind, Report, Section, Standing, Table,
+};
 
 const PICTURE: &str =
     "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 40 10'><text y='9'>axis</text></svg>";
@@ -15,7 +20,11 @@ fn report(rows: usize) -> Report<'static> {
         .section(Section::new("Readings").table(table))
         .section(Section::new("Picture").grid(Columns::AsFit, [figure(), figure(), figure()]))
         .section(
-            Section::new("All").note("n").list(["a".to_owned()]).code("G1 X1\n").paragraph("p"),
+            Section::new("All")
+                .note("a note")
+                .list(["a".to_owned()])
+                .code("G1 X1\n")
+                .paragraph("p"),
         )
 }
 
