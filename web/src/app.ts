@@ -154,13 +154,15 @@ export class App {
       class: `tab tab-${entry.name}`,
       id: `tab-${entry.name}`,
       role: "tabpanel",
-      ariaLabel: entry.title,
+      "aria-labelledby": `tab-link-${entry.name}`,
     });
     const fresh: Mounted = { host, handle: null };
     this.mounted.set(entry.name, fresh);
     this.main.append(host);
     const tab = await entry.load();
     fresh.handle = tab.mount(host, this);
+    host.prepend(h("h1", { class: "visually-hidden" }, entry.title));
+    this.tabs.querySelector(`[data-tab="${entry.name}"]`)?.setAttribute("aria-controls", host.id);
     return fresh;
   }
 
@@ -217,6 +219,7 @@ export class App {
           {
             class: "tab-link",
             role: "tab",
+            id: `tab-link-${name}`,
             href: `#${name}`,
             dataTab: name,
             onclick: (event: MouseEvent) => this.keepMachine(event, name),
@@ -245,18 +248,22 @@ export class App {
   }
 
   private moveFocus(event: KeyboardEvent): void {
-    const step = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
     const links = [...this.tabs.querySelectorAll("a")];
     const at = links.indexOf(document.activeElement as HTMLAnchorElement);
-    if (step === 0 || at < 0) return;
+    const to = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: links.length - 1 }[event.key];
+    if (at < 0) return;
+    if (event.key === " ") links[at]?.click();
+    else if (to !== undefined) links[(to + links.length) % links.length]?.focus();
+    else return;
     event.preventDefault();
-    links[(at + step + links.length) % links.length]?.focus();
   }
 
   private showState(state: Readonly<State>): void {
     for (const link of this.tabs.querySelectorAll("a")) {
       const here = link.dataset.tab === state.tab;
       link.setAttribute("aria-selected", String(here));
+      // One stop of the Tab key; the arrow keys reach the others.
+      link.tabIndex = here ? 0 : -1;
     }
     const folder = state.project?.folder ?? "";
     this.folder.textContent = folder.replace(/^.*\/(?=[^/]+\/?$)/, "");

@@ -109,9 +109,9 @@ function drawBar(d: Drawing, spec: BarSpec, bar: Bar, i: number, g: { x: (v: num
   if (pick) {
     row.setAttribute("tabindex", "0");
     row.setAttribute("role", "button");
-    row.setAttribute("aria-label", `${bar.name}: ${text}`);
+    for (const words of row.querySelectorAll("text")) words.setAttribute("aria-hidden", "true");
     row.addEventListener("click", () => pick(bar, i));
-    row.addEventListener("keydown", (event) => event.key === "Enter" && pick(bar, i));
+    row.addEventListener("keydown", (event) => ["Enter", " "].includes(event.key) && pick(bar, i));
   }
   d.svg.append(row);
 }

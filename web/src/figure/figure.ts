@@ -148,6 +148,11 @@ export function figure<D>(host: HTMLElement, data: D, make: (data: D) => FigureS
       class: "figure-svg",
     });
     source.draw({ svg, width, height });
+    // What holds buttons is no picture to a screen reader: they would be lost in it.
+    if (svg.querySelector("[tabindex]")) {
+      svg.setAttribute("role", "group");
+      svg.removeAttribute("tabindex");
+    }
     const focused = place.contains(document.activeElement);
     place.replaceChildren(svg);
     if (focused) svg.focus({ preventScroll: true });

@@ -102,6 +102,8 @@ class TimePlotView implements TimePlot {
     this.options = options;
     const menu = exportMenu(() => this.spec.title, { png: () => this.png(), csv: () => this.csvText() });
     this.place.tabIndex = 0;
+    // Its keys are its own: a screen reader hands them over.
+    this.place.setAttribute("role", "application");
     this.place.addEventListener("keydown", (event) => this.key(event));
     this.element = h(
       "figure",

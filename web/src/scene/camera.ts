@@ -8,10 +8,10 @@ type ViewName = "iso" | "x" | "y" | "z";
 
 /** From where each view looks. */
 const VIEWS: Record<ViewName, { from: [number, number, number]; label: string; title: string }> = {
-  iso: { from: [-0.62, -1, 0.62], label: "Iso", title: "Look from the front, left, above (0)" },
-  x: { from: [1, 0, 0.0001], label: "X", title: "Look along X (1)" },
-  y: { from: [0, -1, 0.0001], label: "Y", title: "Look along Y, from the front (2)" },
-  z: { from: [0, -0.0001, 1], label: "Z", title: "Look along Z, from above (3)" },
+  iso: { from: [-0.62, -1, 0.62], label: "Iso", title: "Iso: look from the front, left, above (0)" },
+  x: { from: [1, 0, 0.0001], label: "X", title: "X: look along X (1)" },
+  y: { from: [0, -1, 0.0001], label: "Y", title: "Y: look along Y, from the front (2)" },
+  z: { from: [0, -0.0001, 1], label: "Z", title: "Z: look along Z, from above (3)" },
 };
 
 const KEYS: Record<string, ViewName> = { "0": "iso", "1": "x", "2": "y", "3": "z" };

@@ -73,7 +73,7 @@ export function scorePanel(doc: IdentifyDocument): HTMLElement {
         h(
           "tr",
           {},
-          h("th", {}),
+          h("td", {}),
           h("th", {}, h("span", { class: "visually-hidden" }, "Bar")),
           units.map((unit) => h("th", { class: "number" }, unit === "um" ? "µm" : "µrad")),
           h("th", { class: "number" }, "× noise"),

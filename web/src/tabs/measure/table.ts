@@ -57,7 +57,7 @@ export function sheetTable(sheet: Sheet): HTMLElement {
           h(
             "tr",
             {},
-            sheet.head.map((text, j) => h("th", { class: columnIsText(sheet, j) ? "" : "number" }, text)),
+            sheet.head.map((text, j) => h(text ? "th" : "td", { class: columnIsText(sheet, j) ? "" : "number" }, text)),
           ),
         ),
         h(

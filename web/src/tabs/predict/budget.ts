@@ -152,7 +152,7 @@ export class ErrorBudget {
               h("th", {}, "shim"),
               h("th", { class: "number" }, "by"),
               judged.map((j) => h("th", { class: "number" }, titleOf(j.index))),
-              h("th", {}),
+              h("th", {}, h("span", { class: "visually-hidden" }, "try it")),
             ),
           ),
           h("tbody", {}, all.slice(0, 6).map(row)),

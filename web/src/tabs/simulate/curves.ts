@@ -193,7 +193,7 @@ export class Curves {
       {
         ariaPressed: String(this.shown.includes(key)),
         title: `${title} (${unit})`,
-        ariaLabel: `${title}, ${unit}`,
+        ariaLabel: `${word}: ${title}, ${unit}`,
         dataKey: key,
         onclick: () => this.toggle(key, chip),
       },

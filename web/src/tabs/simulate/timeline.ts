@@ -14,7 +14,8 @@ interface Cluster {
 
 export class Timeline {
   readonly element: HTMLElement;
-  private readonly marks = h("div", { class: "timeline-marks" });
+  /** For the mouse; the list of issues and the keys n and p lead to the same places. */
+  private readonly marks = h("div", { class: "timeline-marks", ariaHidden: "true" });
   private readonly spans = h("div", { class: "timeline-spans" });
   private readonly window_part = h("div", { class: "timeline-window", hidden: true });
   private readonly done = h("div", { class: "timeline-done" });
@@ -78,13 +79,11 @@ export class Timeline {
       marks.length === 1
         ? `${first.text}, line ${first.line}, ${clock(first.time_s)} min:s`
         : `${marks.length} places from ${clock(first.time_s)} min:s, the first in line ${first.line}: ${first.text}`;
-    const button = h("button", {
+    const button = h("span", {
       class: `timeline-mark ${critical ? "critical" : ""}`,
       dataKind: first.kind,
       dataTime: first.time_s,
       title: words,
-      ariaLabel: words,
-      tabindex: critical ? "0" : "-1",
       onclick: () => this.seek(first.time_s),
     });
     button.style.left = this.share(first.time_s);
