@@ -1,7 +1,10 @@
 /** The frame of the page: tabs, the open project and machine, status line, messages. */
 
+import { Address, hashOf, readHash, type Change as Kept } from "./address.ts";
 import { Api, Refusal, type Change, type Diagnostic, type Project } from "./api.ts";
 import { fill, h } from "./dom.ts";
+import { withErrorNames } from "./glossary/glossary.ts";
+import { keysButton } from "./keys.ts";
 import { TABS } from "./tabs/index.ts";
 import { chooseTheme, themeChoice, type ThemeChoice } from "./theme.ts";
 
@@ -47,12 +50,14 @@ interface Mounted {
 export class App {
   readonly api = new Api();
   private state_: State = { project: null, machine: null, tab: "start", connection: "connecting" };
+  private readonly address = new Address();
   private readonly listeners = new Set<(state: Readonly<State>) => void>();
   private readonly mounted = new Map<string, Mounted>();
   private readonly bar = h("header", { class: "bar" });
   private readonly main = h("main", { class: "main", id: "main", tabindex: "-1" });
   private readonly tabs = h("nav", { class: "tabs", role: "tablist", ariaLabel: "Verbs" });
   private readonly folder = h("span", { class: "folder" });
+  private readonly unsaved_link = h("a", { class: "unsaved", dataTest: "unsaved", hidden: true });
   private readonly note = h("span", { class: "status-note", role: "status" });
   private readonly link = h("span", { class: "status-link" });
   private readonly meter = h("progress", {
@@ -71,6 +76,9 @@ export class App {
     this.api.onChange = (change) => this.tellChange(change);
     this.subscribe((state) => this.showState(state));
     window.addEventListener("hashchange", () => void this.route());
+    window.addEventListener("beforeunload", (event) => {
+      if (!this.unsaved_link.hidden) event.preventDefault();
+    });
   }
 
   // ---- store ----
@@ -95,12 +103,15 @@ export class App {
 
   /** Opens a tab; the parameters stand in the address, so that reload and back work. */
   go(tab: string, params: Record<string, string | null | undefined> = {}): void {
-    const query = new URLSearchParams();
-    for (const [key, value] of Object.entries(params)) if (value) query.set(key, value);
-    const text = query.toString().replaceAll("%2F", "/");
-    const hash = `#${tab}${text ? `?${text}` : ""}`;
+    this.address.flush();
+    const hash = hashOf(tab, params);
     if (location.hash === hash) void this.route();
     else location.hash = hash;
+  }
+
+  /** Parts of the address of a tab that follow what the user does; back does not stop at each of them. */
+  keep(tab: string, change: Kept): void {
+    this.address.keep(tab, change);
   }
 
   has(tab: string): boolean {
@@ -130,10 +141,10 @@ export class App {
   }
 
   private async route(): Promise<void> {
-    const [name = "", query = ""] = location.hash.replace(/^#/, "").split("?", 2);
+    const { tab: name, params } = readHash();
     const entry = TABS.find((tab) => tab.name === name) ?? TABS[0];
     if (!entry) return;
-    const params = Object.fromEntries(new URLSearchParams(query));
+    this.address.opened(entry.name, params);
     const before = this.mounted.get(this.state_.tab);
     if (this.state_.tab !== entry.name) before?.handle?.hide?.();
     this.set({ tab: entry.name, ...(params.machine ? { machine: params.machine } : {}) });
@@ -167,6 +178,16 @@ export class App {
   }
 
   // ---- status and messages ----
+
+  /** Files with edits that are not saved, said on every tab; the link leads to the first. */
+  unsaved(tab: string, paths: readonly string[]): void {
+    const [first] = paths;
+    this.unsaved_link.hidden = first === undefined;
+    if (first === undefined) return;
+    this.unsaved_link.href = hashOf(tab, { machine: first });
+    this.unsaved_link.title = paths.join("\n");
+    this.unsaved_link.textContent = paths.length === 1 ? "1 file not saved" : `${paths.length} files not saved`;
+  }
 
   /** One line below; replaces the last. */
   say(text: string): void {
@@ -237,14 +258,24 @@ export class App {
       h("option", { value: "dark" }, "Dark"),
     );
     theme.value = themeChoice();
-    fill(this.bar, h("span", { class: "name" }, "TrueAxis"), this.tabs, this.folder, theme);
+    fill(
+      this.bar,
+      h("span", { class: "name" }, "TrueAxis"),
+      this.tabs,
+      this.folder,
+      this.unsaved_link,
+      keysButton(),
+      theme,
+    );
   }
 
-  /** A click on a tab keeps the open machine. */
+  /** A click on a tab keeps the open machine, and what the tab showed of it. */
   private keepMachine(event: MouseEvent, name: string): void {
     if (event.ctrlKey || event.metaKey || event.shiftKey) return;
     event.preventDefault();
-    this.go(name, name === "start" ? {} : { machine: this.state_.machine });
+    this.address.flush();
+    const { machine } = this.state_;
+    this.go(name, name === "start" ? {} : { ...this.address.lastOf(name, machine), machine });
   }
 
   private moveFocus(event: KeyboardEvent): void {
@@ -294,7 +325,7 @@ export function diagnosticList(diagnostics: readonly Diagnostic[]): HTMLElement 
         { class: `diagnostic ${d.severity}` },
         h("span", { class: "diagnostic-severity" }, d.severity),
         place ? h("code", {}, place) : null,
-        h("span", {}, d.message),
+        h("span", {}, withErrorNames(d.message)),
         d.hint ? h("span", { class: "hint" }, d.hint) : null,
       );
     }),

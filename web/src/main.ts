@@ -11,6 +11,7 @@ import "./style/simulate.css";
 import "./style/simulate-source.css";
 import "./style/simulate-time.css";
 import "./style/live.css";
+import "./style/dialog.css";
 import { App } from "./app.ts";
 import { startTheme } from "./theme.ts";
 

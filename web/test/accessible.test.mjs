@@ -1,16 +1,14 @@
 // axe-core finds nothing on any tab, in the light and in the dark theme, each from a cold start.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
-import { mkdtempSync, readFileSync } from "node:fs";
-import { createRequire } from "node:module";
+import { mkdtempSync } from "node:fs";
 import os from "node:os";
 import path from "node:path";
 import { after, test } from "node:test";
+import { findings } from "./axe.mjs";
 import { go, placesOf } from "./places.mjs";
 import { browse, open, program, root, serve } from "./served.mjs";
 
-const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-const TAGS = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"];
 // A run on the mock, so that Live has something to show; its journal is in a folder of this test.
 process.env.XDG_STATE_HOME ??= mkdtempSync(path.join(os.tmpdir(), "trueaxis-accessible-"));
 const server = await serve();
@@ -25,20 +23,6 @@ after(async () => {
   await browser.close();
   await server.stop();
 });
-
-/** What axe-core finds, one line for each element. */
-async function findings(page) {
-  await page.evaluate(axe);
-  const { violations } = await page.evaluate(
-    (tags) => globalThis.axe.run(document, { runOnly: tags, resultTypes: ["violations"] }),
-    TAGS,
-  );
-  return violations.flatMap(({ id, help, nodes }) =>
-    nodes.map(
-      ({ target, any, html }) => `${id}: ${help}: ${target.join(" ")} ${any[0]?.message ?? ""} ${html.slice(0, 160)}`,
-    ),
-  );
-}
 
 /** `PLACE=simulate` looks at one tab only. */
 const only = process.env.PLACE;

@@ -3,6 +3,7 @@
 import { download, h } from "../../dom.ts";
 import { csvOf, fileName } from "../../figure/figure.ts";
 import { number } from "../../format.ts";
+import { withErrorNames } from "../../glossary/glossary.ts";
 
 export type Cell = string | number | null;
 
@@ -21,7 +22,7 @@ export interface Sheet {
 }
 
 function cell(value: Cell, digits: number, hint?: string): HTMLElement {
-  if (typeof value === "string") return h("td", { title: hint }, value);
+  if (typeof value === "string") return h("td", { title: hint }, withErrorNames(value));
   return h("td", { class: "number" }, number(value, digits));
 }
 

@@ -41,7 +41,7 @@ export class DeviationMap {
     step: "1",
     class: "exaggeration",
     ariaLabel: "Magnification of the deviations",
-    oninput: () => this.magnify(Number(this.slider.value)),
+    oninput: () => this.magnifyAnew(),
   });
   private mesh: InstancedMesh | null = null;
   private frame: Frame<DrawingHeader> | null = null;
@@ -51,6 +51,8 @@ export class DeviationMap {
   private most = 1;
   private range = 1;
   private k = 1;
+  /** The user moved the slider. */
+  onMagnified: (state: string | null) => void = () => {};
 
   constructor(host: HTMLElement) {
     const scene = h("div", { class: "predict-scene" });
@@ -133,6 +135,23 @@ export class DeviationMap {
     if (mesh.instanceColor) mesh.instanceColor.needsUpdate = true;
     this.view.showScale({ title: "deviation", unit: "µm", range: [-this.range, this.range], map });
     this.view.requestRender();
+  }
+
+  private magnifyAnew(): void {
+    this.magnify(Number(this.slider.value));
+    this.onMagnified(this.state);
+  }
+
+  /** Where the slider of the magnification stands, for the address; null where it began. */
+  get state(): string | null {
+    return Number(this.slider.value) === AT_FIRST ? null : this.slider.value;
+  }
+
+  /** As an address says. */
+  take(state: string | undefined): void {
+    if (state === undefined || state === this.slider.value || !(Number(state) >= 0)) return;
+    this.slider.value = state;
+    this.magnify(Number(this.slider.value));
   }
 
   private magnify(slider: number): void {

@@ -1,7 +1,7 @@
 /** The time line: drag to scrub, marks of collisions, over-travel and other issues jump there. */
 
 import { fill, h } from "../../dom.ts";
-import { clock } from "../../format.ts";
+import { clock, clockUnit, duration } from "../../format.ts";
 import type { Mark } from "./answers.ts";
 
 /** Marks closer than this share of the line are one mark with a number. */
@@ -58,7 +58,7 @@ export class Timeline {
     const share = this.share(time_s);
     this.done.style.width = this.thumb.style.left = share;
     this.track.setAttribute("aria-valuenow", String(time_s));
-    this.track.setAttribute("aria-valuetext", `${clock(time_s)} of ${clock(this.duration_s)}, minutes and seconds`);
+    this.track.setAttribute("aria-valuetext", `${duration(time_s)} of ${duration(this.duration_s)}`);
   }
 
   /** The part of the time that the plots show. */
@@ -77,8 +77,8 @@ export class Timeline {
     const first = marks[0] as Mark;
     const words =
       marks.length === 1
-        ? `${first.text}, line ${first.line}, ${clock(first.time_s)} min:s`
-        : `${marks.length} places from ${clock(first.time_s)} min:s, the first in line ${first.line}: ${first.text}`;
+        ? `${first.text}, line ${first.line}, ${clock(first.time_s)}${clockUnit(first.time_s)}`
+        : `${marks.length} places from ${clock(first.time_s)}${clockUnit(first.time_s)}, the first in line ${first.line}: ${first.text}`;
     const button = h("span", {
       class: `timeline-mark ${critical ? "critical" : ""}`,
       dataKind: first.kind,
