@@ -7,6 +7,7 @@ import { withErrorNames } from "./glossary/glossary.ts";
 import { keysButton } from "./keys.ts";
 import { TABS } from "./tabs/index.ts";
 import { chooseTheme, themeChoice, type ThemeChoice } from "./theme.ts";
+import { chooseLanguage, language, languages, words } from "./words/index.ts";
 
 export interface TabHandle {
   /** The tab is shown with these parameters of the address (`machine=…&program=…`). */
@@ -54,8 +55,8 @@ export class App {
   private readonly listeners = new Set<(state: Readonly<State>) => void>();
   private readonly mounted = new Map<string, Mounted>();
   private readonly bar = h("header", { class: "bar" });
-  private readonly main = h("main", { class: "main", id: "main", tabindex: "-1" });
-  private readonly tabs = h("nav", { class: "tabs", role: "tablist", ariaLabel: "Verbs" });
+  private readonly main = h("main", { class: "main", id: "main", tabindex: "-1", lang: "en" });
+  private readonly tabs = h("nav", { class: "tabs", role: "tablist", ariaLabel: words.verbs });
   private readonly folder = h("span", { class: "folder" });
   private readonly unsaved_link = h("a", { class: "unsaved", dataTest: "unsaved", hidden: true });
   private readonly note = h("span", { class: "status-note", role: "status" });
@@ -65,9 +66,9 @@ export class App {
     max: "1",
     value: 0,
     hidden: true,
-    ariaLabel: "Progress",
+    ariaLabel: words.progress,
   });
-  private readonly toasts = h("div", { class: "toasts", ariaLive: "polite" });
+  private readonly toasts = h("div", { class: "toasts", ariaLive: "polite", lang: "en" });
 
   constructor(root: HTMLElement) {
     this.buildBar();
@@ -136,7 +137,7 @@ export class App {
     const own = from === this.api.window;
     for (const [name, { handle }] of this.mounted)
       if (!own || name !== this.state_.tab) handle?.changed?.(path ?? null, version ?? null);
-    if (!own && path) this.say(`${path} was saved in another window`);
+    if (!own && path) this.say(words.saved_elsewhere(path));
     if (!this.state_.project?.files.some((file) => file.path === path)) void this.loadProject();
   }
 
@@ -148,7 +149,7 @@ export class App {
     const before = this.mounted.get(this.state_.tab);
     if (this.state_.tab !== entry.name) before?.handle?.hide?.();
     this.set({ tab: entry.name, ...(params.machine ? { machine: params.machine } : {}) });
-    document.title = `${entry.title} – TrueAxis`;
+    document.title = `${titleOf(entry)} – TrueAxis`;
     try {
       const now = await this.mountTab(entry);
       for (const [key, { host }] of this.mounted) host.hidden = key !== this.state_.tab;
@@ -186,7 +187,7 @@ export class App {
     if (first === undefined) return;
     this.unsaved_link.href = hashOf(tab, { machine: first });
     this.unsaved_link.title = paths.join("\n");
-    this.unsaved_link.textContent = paths.length === 1 ? "1 file not saved" : `${paths.length} files not saved`;
+    this.unsaved_link.textContent = words.unsaved(paths.length);
   }
 
   /** One line below; replaces the last. */
@@ -223,8 +224,14 @@ export class App {
       h("strong", {}, refusal.message),
       refusal.hint ? h("p", { class: "hint" }, refusal.hint) : null,
       refusal.diagnostics.length > 0 ? diagnosticList(refusal.diagnostics.slice(0, 6)) : null,
-      refusal.diagnostics.length > 6 ? h("p", { class: "muted" }, `and ${refusal.diagnostics.length - 6} more`) : null,
-      h("button", { class: "toast-close", ariaLabel: "Close this message", onclick: () => toast.remove() }, "×"),
+      refusal.diagnostics.length > 6
+        ? h("p", { class: "muted", lang: language() }, words.more(refusal.diagnostics.length - 6))
+        : null,
+      h(
+        "button",
+        { class: "toast-close", lang: language(), ariaLabel: words.close_message, onclick: () => toast.remove() },
+        "×",
+      ),
     );
     this.toasts.append(toast);
     while (this.toasts.children.length > 4) this.toasts.firstElementChild?.remove();
@@ -233,7 +240,8 @@ export class App {
   // ---- bar ----
 
   private buildBar(): void {
-    for (const { name, title } of TABS) {
+    for (const entry of TABS) {
+      const { name } = entry;
       this.tabs.append(
         h(
           "a",
@@ -245,19 +253,25 @@ export class App {
             dataTab: name,
             onclick: (event: MouseEvent) => this.keepMachine(event, name),
           },
-          title,
+          titleOf(entry),
         ),
       );
     }
     this.tabs.addEventListener("keydown", (event) => this.moveFocus(event));
     const theme = h(
       "select",
-      { class: "theme", ariaLabel: "Light or dark", onchange: () => chooseTheme(theme.value as ThemeChoice) },
-      h("option", { value: "auto" }, "System"),
-      h("option", { value: "light" }, "Light"),
-      h("option", { value: "dark" }, "Dark"),
+      { class: "theme", ariaLabel: words.theme, onchange: () => chooseTheme(theme.value as ThemeChoice) },
+      h("option", { value: "auto" }, words.themes.auto),
+      h("option", { value: "light" }, words.themes.light),
+      h("option", { value: "dark" }, words.themes.dark),
     );
     theme.value = themeChoice();
+    const tongue = h(
+      "select",
+      { class: "language", ariaLabel: words.language, onchange: () => chooseLanguage(tongue.value) },
+      languages.map(({ code, name }) => h("option", { value: code, lang: code }, name)),
+    );
+    tongue.value = language();
     fill(
       this.bar,
       h("span", { class: "name" }, "TrueAxis"),
@@ -265,6 +279,7 @@ export class App {
       this.folder,
       this.unsaved_link,
       keysButton(),
+      tongue,
       theme,
     );
   }
@@ -295,6 +310,7 @@ export class App {
       link.setAttribute("aria-selected", String(here));
       // One stop of the Tab key; the arrow keys reach the others.
       link.tabIndex = here ? 0 : -1;
+      if (here) link.scrollIntoView({ block: "nearest", inline: "nearest" });
     }
     const folder = state.project?.folder ?? "";
     this.folder.textContent = folder.replace(/^.*\/(?=[^/]+\/?$)/, "");
@@ -302,12 +318,15 @@ export class App {
     this.link.dataset.state = state.connection;
     const version = state.project ? ` ${state.project.version}` : "";
     this.link.textContent = {
-      connecting: "connecting …",
+      connecting: words.connecting,
       open: `TrueAxis${version}`,
-      lost: "no connection – trying again",
+      lost: words.lost,
     }[state.connection];
   }
 }
+
+/** A tab that the words do not know keeps its own title. */
+const titleOf = ({ name, title }: TabEntry): string => words.tabs[name] ?? title;
 
 /** "machine.toml:41:8  message  hint", one line each. */
 export function diagnosticList(diagnostics: readonly Diagnostic[]): HTMLElement {

@@ -1,6 +1,7 @@
 /** A window over the page: Escape, its button or a press beside it close it, and the focus goes back. */
 
 import { fill, h, type Child } from "./dom.ts";
+import { words } from "./words/index.ts";
 
 export interface Dialog {
   readonly element: HTMLDialogElement;
@@ -21,7 +22,12 @@ export function dialog(name: string): Dialog {
       title,
       h(
         "button",
-        { class: "dialog-close", ariaLabel: "Close", title: "Close (Esc)", onclick: () => element.close() },
+        {
+          class: "dialog-close",
+          ariaLabel: words.close,
+          title: `${words.close} (Esc)`,
+          onclick: () => element.close(),
+        },
         "×",
       ),
     ),

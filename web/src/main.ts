@@ -14,7 +14,9 @@ import "./style/live.css";
 import "./style/dialog.css";
 import { App } from "./app.ts";
 import { startTheme } from "./theme.ts";
+import { language } from "./words/index.ts";
 
 startTheme();
+document.documentElement.lang = language();
 const root = document.getElementById("app");
 if (root) void new App(root).start();

@@ -122,7 +122,7 @@ export function chainPicture(host: HTMLElement, spec: ChainSpec): Figure<ChainSp
                 "text-anchor": "middle",
                 fill: "var(--ink)",
                 "font-weight": "600",
-                "font-size": ends && box >= 54 ? Math.min(11.5, box / 5.6) : 12.5,
+                "font-size": ends && box >= 54 ? Math.min(11.5, (box - 8) / 5.2) : 12.5,
               },
               // Where the word would be too small, the letter of the chain.
               ends && box < 54 ? cell.body : cell.name,

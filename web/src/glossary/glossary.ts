@@ -9,6 +9,7 @@ import { readOf, textOf } from "./texts.ts";
 const AXES = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W", "w", "t"];
 
 const over = dialog("glossary");
+over.element.lang = "en";
 
 /** Explains a name; one that is none opens the first. */
 export function explain(name: string): void {
