@@ -12,7 +12,8 @@ export interface Dialog {
 
 export function dialog(name: string): Dialog {
   const title = h("h2", { id: `${name}-title` });
-  const body = h("div", { class: "dialog-body" });
+  // With the keys, as it may be longer than the screen.
+  const body = h("div", { class: "dialog-body", tabindex: "0", role: "group", "aria-labelledby": title.id });
   const element = h(
     "dialog",
     { class: `dialog dialog-${name}`, "aria-labelledby": title.id },

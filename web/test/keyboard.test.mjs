@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { findings } from "./axe.mjs";
+import { downloaded } from "./measured.mjs";
 import { go, placesOf } from "./places.mjs";
 import { cli, open } from "./served.mjs";
 import { browser, server } from "./shared.mjs";
@@ -95,6 +96,41 @@ test("Simulate: G goes to the line that is typed, with its time", async () => {
   await page.waitForFunction(() => globalThis.trueaxisScene.moment().line >= 40);
   assert.ok((await line(page)) < 60);
   assert.equal(await page.locator(".find").isVisible(), false);
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("a figure as a table, and every point of a part", async () => {
+  const { page, context, complaints } = await open(browser, server.address);
+  const places = await placesOf(page);
+  await go(
+    page,
+    server.address,
+    places.find(({ name }) => name === "standards"),
+  );
+  const figure = page.locator("#tab-standards figure").first();
+  const csv = await downloaded(page, () => figure.getByRole("button", { name: "Save as CSV" }).click());
+  await figure.getByRole("button", { name: "Table" }).focus();
+  await page.keyboard.press("Enter");
+  const rows = await page.locator("dialog[open] tbody tr").count();
+  assert.equal(rows, csv.text.trim().split("\n").length - 1);
+  assert.deepEqual(await findings(page), []);
+  await page.keyboard.press("Escape");
+  assert.equal(await page.evaluate(() => document.activeElement?.textContent), "Table");
+
+  await go(
+    page,
+    server.address,
+    places.find(({ name }) => name === "predict part"),
+  );
+  const point = page.locator('[data-test="point-deviation"]');
+  const first = await point.textContent();
+  await page.getByRole("button", { name: "Smaller deviation" }).focus();
+  await page.keyboard.press("Enter");
+  assert.notEqual(await point.textContent(), first);
+  await page.getByRole("button", { name: "Larger deviation" }).focus();
+  await page.keyboard.press("Enter");
+  assert.equal(await point.textContent(), first);
   assert.deepEqual(complaints, []);
   await context.close();
 });

@@ -48,6 +48,8 @@ export class DeviationMap {
   /** The number of the feature of each point. */
   private owner = new Uint32Array();
   private marked: ReadonlySet<number> | null = null;
+  /** The point that is explained. */
+  private picked = 0;
   private most = 1;
   private range = 1;
   private k = 1;
@@ -71,7 +73,36 @@ export class DeviationMap {
       h(
         "div",
         { class: "scene-bottom" },
-        h("div", { class: "scene-control" }, "deviations", this.slider, this.factor_text, save),
+        h(
+          "div",
+          { class: "scene-control" },
+          h(
+            "span",
+            { class: "group", role: "group", ariaLabel: "Points, the largest deviation first" },
+            h(
+              "button",
+              {
+                ariaLabel: "Larger deviation",
+                title: "The point before, of larger deviation",
+                onclick: () => this.step(-1),
+              },
+              "‹",
+            ),
+            h(
+              "button",
+              {
+                ariaLabel: "Smaller deviation",
+                title: "The next point, of smaller deviation",
+                onclick: () => this.step(1),
+              },
+              "›",
+            ),
+          ),
+          "deviations",
+          this.slider,
+          this.factor_text,
+          save,
+        ),
       ),
     );
     this.pickByPress();
@@ -203,10 +234,23 @@ export class DeviationMap {
     });
   }
 
+  /** The next point in the order of the deviations, of what is marked: the way to every point without a mouse. */
+  private step(by: 1 | -1): void {
+    const deviations = this.frame?.f32("deviation_um") ?? new Float32Array();
+    const size = (i: number): number => Math.abs(deviations[i] ?? 0);
+    const there = Array.from(deviations.keys()).filter(
+      (i) => this.marked === null || this.marked.has(this.owner[i] ?? 0),
+    );
+    const order = there.sort((a, b) => size(b) - size(a) || a - b);
+    const next = order[Math.max(0, Math.min(order.length - 1, order.indexOf(this.picked) + by))];
+    if (next !== undefined) this.pick(next);
+  }
+
   /** Says of a point how it is and why. */
   pick(i: number): void {
     const { frame } = this;
     if (!frame) return;
+    this.picked = i;
     const { document, programs, error_names } = frame.header;
     const places = frame.f32("places_mm").subarray(3 * i, 3 * i + 3);
     const um = (name: string): string => number(frame.f32(name)[i] ?? 0, 2);
