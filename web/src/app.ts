@@ -304,13 +304,20 @@ export class App {
     event.preventDefault();
   }
 
+  /** Where the bar is too narrow for all tabs. (`scrollIntoView` would also move where the Tab key goes on.) */
+  private bringIntoSight(link: HTMLElement): void {
+    const [bar, box] = [this.tabs.getBoundingClientRect(), link.getBoundingClientRect()];
+    if (box.left < bar.left) this.tabs.scrollLeft -= bar.left - box.left;
+    else if (box.right > bar.right) this.tabs.scrollLeft += box.right - bar.right;
+  }
+
   private showState(state: Readonly<State>): void {
     for (const link of this.tabs.querySelectorAll("a")) {
       const here = link.dataset.tab === state.tab;
       link.setAttribute("aria-selected", String(here));
       // One stop of the Tab key; the arrow keys reach the others.
       link.tabIndex = here ? 0 : -1;
-      if (here) link.scrollIntoView({ block: "nearest", inline: "nearest" });
+      if (here) this.bringIntoSight(link);
     }
     const folder = state.project?.folder ?? "";
     this.folder.textContent = folder.replace(/^.*\/(?=[^/]+\/?$)/, "");

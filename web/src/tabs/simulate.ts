@@ -164,7 +164,7 @@ class SimulateTab implements TabHandle {
     this.choice = choice;
     this.dropped = dropped;
     this.choices.show(choice, dropped);
-    // The machine that was open: a copied link has it, too.
+    // The machine that was open: a copied link names it, too.
     this.app.keep("simulate", { machine });
     if (params.dropped && !dropped)
       this.app.fail(

@@ -84,7 +84,7 @@ export class ErrorRow {
     return `${times === 1 ? "" : `x${times}`}${added === 0 ? "" : `a${added}`}`;
   }
 
-  /** As an address says; nobody is told. */
+  /** As an address says; without `onchange`. */
   take(words: string): void {
     const found = /^(?:x(-?[\d.]+))?(?:a(-?[\d.]+))?$/.exec(words);
     this.on.checked = words !== "off";

@@ -18,7 +18,7 @@ interface Setting {
   /** null: as in the file. */
   value: number | null;
   reset(): void;
-  /** As an address says; nobody is told. */
+  /** As an address says; without `onchange`. */
   take(value: number): void;
 }
 

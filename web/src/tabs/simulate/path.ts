@@ -102,7 +102,7 @@ export class ToolPath {
     this.changed();
   }
 
-  /** For the address; null while nobody has chosen. */
+  /** For the address; null while the user has not chosen. */
   get state(): Colour | null {
     return this.picked ? this.colour : null;
   }
