@@ -388,6 +388,62 @@ export type Grouped2 =
       [k: string]: PositionIndex;
     };
 /**
+ * How a verdict is coloured.
+ */
+export type ShownStanding = "good" | "bad" | "open";
+/**
+ * What stands in a section.
+ */
+export type ShownItem =
+  | {
+      kind: "paragraph";
+      /**
+       * Its text.
+       */
+      text: string;
+    }
+  | {
+      kind: "note";
+      /**
+       * Its text.
+       */
+      text: string;
+    }
+  | {
+      kind: "list";
+      /**
+       * The lines.
+       */
+      lines: string[];
+    }
+  | {
+      kind: "code";
+      /**
+       * The lines.
+       */
+      text: string;
+    }
+  | {
+      kind: "table";
+      /**
+       * The headings with their units; empty for pairs of name and value.
+       */
+      headings: string[];
+      /**
+       * The cells, row by row.
+       */
+      rows: string[][];
+      /**
+       * The text below it; may be empty.
+       */
+      note: string;
+    };
+export type ServeCompensateTargets = ServeCompensateTargetsTargetEntry[];
+/**
+ * Which error is compensated.
+ */
+export type CompensatedError = "machine" | "comprehensive";
+/**
  * A document of the command line with the problems of its input.
  */
 export type Diagnosed = {
@@ -541,11 +597,35 @@ export type ServePredict =
 /**
  * The content of a file, by its ending and, for TOML, by its sections.
  */
-export type FileKind = "machine" | "study" | "campaign" | "program" | "readings" | "setup" | "cl" | "live" | "other";
+export type FileKind =
+  | "machine"
+  | "study"
+  | "campaign"
+  | "program"
+  | "readings"
+  | "setup"
+  | "cl"
+  | "live"
+  | "comparison"
+  | "certificate"
+  | "measured"
+  | "blank"
+  | "other";
 /**
  * A command that has a report.
  */
-export type Verb = "predict" | "simulate" | "plan" | "identify" | "evaluate" | "verify";
+export type Verb =
+  | "predict"
+  | "simulate"
+  | "plan"
+  | "identify"
+  | "evaluate"
+  | "verify"
+  | "diff"
+  | "history"
+  | "certificate"
+  | "laser"
+  | "part";
 /**
  * An issue over a stretch of the path.
  */
@@ -586,6 +666,10 @@ export type IssueEntry = {
    * How many points of the path are in it.
    */
   nodes: number;
+  /**
+   * How many stretches it holds: above 1 where there are so many of its kind that the nearest were put together.
+   */
+  stretches: number;
 } & (
   | {
       /**
@@ -712,6 +796,15 @@ export type ServeStandards = [
   StandardEntry
 ];
 /**
+ * What is verified.
+ */
+export type VerifiedSubject = "readings" | "diff" | "history" | "certificate" | "laser" | "part";
+/**
+ * The documents of `trueaxis verify`, for their schemas.
+ */
+export type VerifiedDocument =
+  VerifyDocument | DiffDocument | HistoryDocument | CertificateDocument | BeforeAfterDocument | VerifyPartDocument;
+/**
  * A prediction.
  */
 export type ServeWhatIf =
@@ -773,6 +866,16 @@ export interface Documents {
   predict: Predict;
   refused: Refused;
   "serve-array": ServeArray;
+  "serve-compensate-adapt-request": ServeCompensateAdaptRequest;
+  "serve-compensate-adapt": ServeCompensateAdapt;
+  "serve-compensate-program-request": ServeCompensateProgramRequest;
+  "serve-compensate-program": ServeCompensateProgram;
+  "serve-compensate-tables-request": ServeCompensateTablesRequest;
+  "serve-compensate-tables": ServeCompensateTables;
+  "serve-compensate-targets-request": ServeCompensateTargetsRequest;
+  "serve-compensate-targets": ServeCompensateTargets;
+  "serve-compensate-values-request": ServeCompensateValuesRequest;
+  "serve-compensate-values": ServeCompensateValues;
   "serve-describe-request": ServeDescribeRequest;
   "serve-describe": ServeDescribe;
   "serve-evaluate-request": ServeEvaluateRequest;
@@ -781,6 +884,12 @@ export interface Documents {
   "serve-identify": ServeIdentify;
   "serve-live-request": ServeLiveRequest;
   "serve-live": ServeLive;
+  "serve-measure-check-request": ServeMeasureCheckRequest;
+  "serve-measure-check": ServeMeasureCheck;
+  "serve-measure-request": ServeMeasureRequest;
+  "serve-measure-sheet-request": ServeMeasureSheetRequest;
+  "serve-measure-sheet": ServeMeasureSheet;
+  "serve-measure": ServeMeasure;
   "serve-models-request": ServeModelsRequest;
   "serve-models": ServeModels;
   "serve-open-request": ServeOpenRequest;
@@ -796,6 +905,8 @@ export interface Documents {
   "serve-refused": ServeRefused;
   "serve-report-request": ServeReportRequest;
   "serve-report": ServeReport;
+  "serve-save-made-request": ServeSaveMadeRequest;
+  "serve-save-made": ServeSaveMade;
   "serve-save-request": ServeSaveRequest;
   "serve-save": ServeSave;
   "serve-set-error-request": ServeSetErrorRequest;
@@ -816,6 +927,10 @@ export interface Documents {
   "serve-socket": ServeSocket;
   "serve-standards-request": ServeStandardsRequest;
   "serve-standards": ServeStandards;
+  "serve-trace-request": ServeTraceRequest;
+  "serve-trace": ServeTrace;
+  "serve-verify-request": ServeVerifyRequest;
+  "serve-verify": ServeVerify;
   "serve-what-if-request": ServeWhatIfRequest;
   "serve-what-if": ServeWhatIf;
   simulate: Simulate;
@@ -2352,6 +2467,14 @@ export interface ResidualEntry {
    * Of the tool axis between the ends, µrad.
    */
   axis_between_urad: LineValue;
+  /**
+   * Root mean square of the tip over the ends of blocks, µm.
+   */
+  tip_at_ends_rms_um: number;
+  /**
+   * Of the tool axis over the ends of blocks, µrad.
+   */
+  axis_at_ends_rms_urad: number;
 }
 /**
  * A value and the line of the program where it occurs.
@@ -10617,6 +10740,693 @@ export interface ServeArray {
   count: number;
 }
 /**
+ * Moves a path onto the blank that was measured.
+ */
+export interface ServeCompensateAdaptRequest {
+  /**
+   * The study: path, measured blank, cutter, wall.
+   */
+  study: string;
+  /**
+   * The control of the program, as `--control` of the command line; without one only the path is made.
+   */
+  control?: string | null;
+}
+/**
+ * A path that was adapted.
+ */
+export interface ServeCompensateAdapt {
+  /**
+   * The document of `trueaxis compensate adapt`.
+   */
+  document: AdaptDocument;
+  /**
+   * Its report.
+   */
+  shown: ShownEntry;
+  /**
+   * The adapted path and its program; none if it must not be cut.
+   */
+  made: MadeEntry;
+  /**
+   * The problems of the study.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * A path moved onto a measured blank: `trueaxis/compensate-adapt/1`.
+ */
+export interface AdaptDocument {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/compensate-adapt/1";
+  /**
+   * The name of the study.
+   */
+  name: string;
+  /**
+   * The name of the machine.
+   */
+  machine: string;
+  /**
+   * The file of the path.
+   */
+  path: string;
+  /**
+   * `good` or `not to be cut`.
+   */
+  verdict: string;
+  /**
+   * What speaks against the path.
+   */
+  findings: FindingEntry[];
+  /**
+   * How the blank lies.
+   */
+  registration: RegistrationEntry;
+  /**
+   * The form of the blank.
+   */
+  field: FieldEntry;
+  /**
+   * The places of the path.
+   */
+  places: PlacesEntry;
+  /**
+   * The wall that remains.
+   */
+  wall: WallEntry;
+  /**
+   * The wall place by place.
+   */
+  map: CellEntry[];
+  /**
+   * The program of the adapted path; null if none was asked for.
+   */
+  program: ProgramEntry | null;
+}
+/**
+ * A report of the command line without its pictures.
+ */
+export interface ShownEntry {
+  /**
+   * Its title.
+   */
+  title: string;
+  /**
+   * The lines below it.
+   */
+  lines: string[];
+  /**
+   * The verdict; null if there is none.
+   */
+  verdict: ShownVerdict | null;
+  /**
+   * Its sections in their order.
+   */
+  sections: ShownSection[];
+}
+/**
+ * The result in one word and in one sentence.
+ */
+export interface ShownVerdict {
+  /**
+   * How it is coloured.
+   */
+  standing: ShownStanding;
+  /**
+   * The word, such as `PASS`.
+   */
+  word: string;
+  /**
+   * What that means; may be empty.
+   */
+  sentence: string;
+}
+/**
+ * A part of the report.
+ */
+export interface ShownSection {
+  /**
+   * Its title; may be empty.
+   */
+  title: string;
+  /**
+   * What stands in it.
+   */
+  items: ShownItem[];
+}
+/**
+ * The files that an answer made.
+ */
+export interface MadeEntry {
+  /**
+   * Their number on the server, for `save-made` and the address `/made/NUMBER/FILE`; only the last few are kept.
+   */
+  number: number;
+  /**
+   * The files.
+   */
+  files: MadeFileEntry[];
+}
+/**
+ * A file that can be downloaded or saved.
+ */
+export interface MadeFileEntry {
+  /**
+   * Where it would go, below the project folder.
+   */
+  name: string;
+  /**
+   * Its size in bytes.
+   */
+  bytes: number;
+  /**
+   * Its beginning; what is not UTF-8 is shown as replacement characters.
+   */
+  beginning: string;
+  /**
+   * Whether that is all of it.
+   */
+  whole: boolean;
+}
+/**
+ * Rewrites an NC program for the actual machine.
+ */
+export interface ServeCompensateProgramRequest {
+  /**
+   * The machine file.
+   */
+  machine: string;
+  /**
+   * The NC program.
+   */
+  program: string;
+  /**
+   * The set-up file; the one beside the program if it is left out.
+   */
+  setup?: string | null;
+  /**
+   * The control that the program is for, as `--control` of the command line.
+   */
+  control?: string | null;
+  /**
+   * Temperatures as `--temperature` takes them, such as `scale_x=30.5 workpiece=31`.
+   */
+  temperature?: string | null;
+  /**
+   * As `--machine-only`; false if it is left out.
+   */
+  machine_only?: boolean | null;
+  /**
+   * As `--flat`; false if it is left out.
+   */
+  flat?: boolean | null;
+  /**
+   * As `--position-only`; false if it is left out.
+   */
+  position_only?: boolean | null;
+  /**
+   * As `--keep-unproved`; false if it is left out.
+   */
+  keep_unproved?: boolean | null;
+  /**
+   * As `--residual`; `1 um` if it is left out.
+   */
+  residual?: string | null;
+  /**
+   * As `--increment`; `1 um` if it is left out.
+   */
+  increment?: string | null;
+}
+/**
+ * A program that was rewritten. Array: `along` (f64: for each block, or for each stretch of blocks of a long program,
+ * its line, then the largest deviation of the tip before and after, µm, and of the tool axis before and after, µrad).
+ */
+export interface ServeCompensateProgram {
+  /**
+   * The document of `trueaxis compensate program`.
+   */
+  document: ProgramDocument;
+  /**
+   * Its report.
+   */
+  shown: ShownEntry;
+  /**
+   * The first changed lines; null if the program was unrolled, or not written.
+   */
+  changes: ChangesEntry | null;
+  /**
+   * The compensated program; without a file if it was not proved.
+   */
+  made: MadeEntry;
+  /**
+   * The problems of machine, set-up and program.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * A program rewritten for the actual machine, with its proof: `trueaxis/compensate-program/1`.
+ */
+export interface ProgramDocument {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/compensate-program/1";
+  /**
+   * The name of the machine.
+   */
+  machine: string;
+  /**
+   * The program as it was.
+   */
+  program: string;
+  /**
+   * The compensated program.
+   */
+  output: string;
+  /**
+   * Blocks that move the tool.
+   */
+  blocks: number;
+  /**
+   * Blocks of these that were divided.
+   */
+  split: number;
+  /**
+   * Blocks that were written for all of them.
+   */
+  pieces: number;
+  /**
+   * Circles that became lines.
+   */
+  circles_to_lines: number;
+  /**
+   * Words that were added to blocks.
+   */
+  words_added: number;
+  /**
+   * The first thousand of them.
+   */
+  additions: AddedWord[];
+  /**
+   * Computed words that have a correction added.
+   */
+  expressions_corrected: number;
+  /**
+   * The first thousand of them.
+   */
+  expressions: CorrectedExpression[];
+  /**
+   * Whether the written program, read back, keeps the residual: only then it is written.
+   */
+  proved: boolean;
+  /**
+   * Blocks of rotary axes alone with a new F, so that they take the same time.
+   */
+  feeds_changed: number;
+  /**
+   * Places where an axis reverses by less than its reversal error.
+   */
+  undecided_reversals: number;
+  /**
+   * Blocks that stay as they are, by reason.
+   */
+  left: {
+    [k: string]: number;
+  };
+  /**
+   * Places where the tool axis keeps its deviation, by reason.
+   */
+  axis_left: {
+    [k: string]: number;
+  };
+  /**
+   * Whether only the tip was corrected.
+   */
+  position_only: boolean;
+  /**
+   * How far the tip may be missed between the ends of blocks, mm.
+   */
+  residual_mm: number;
+  /**
+   * How far the tool axis may be missed there, rad.
+   */
+  residual_axis_rad: number;
+  /**
+   * The least increments; null if numbers were not rounded.
+   */
+  increments: IncrementsEntry | null;
+  /**
+   * The largest deviations of the program as it was.
+   */
+  before: ResidualEntry;
+  /**
+   * Of the compensated program, read back.
+   */
+  after: ResidualEntry;
+  /**
+   * How many ends of blocks were compared.
+   */
+  ends_compared: number;
+  /**
+   * The blocks with the largest deviations after compensation.
+   */
+  worst_blocks: BlockEntry[];
+  /**
+   * The largest correction of each axis.
+   */
+  largest_corrections: AxisCorrection[];
+  /**
+   * The largest relative change of the path length of the tip in a block. Unit: 1.
+   */
+  way_change_relative: number;
+  /**
+   * How well the corrections are known.
+   */
+  uncertainty: UncertaintyEntry;
+  /**
+   * What would be left without correction and with a wrong sign.
+   */
+  convention_check: ConventionEntry[];
+  /**
+   * What to know of this program.
+   */
+  remarks: string[];
+}
+/**
+ * Lines that are not what they were.
+ */
+export interface ChangesEntry {
+  /**
+   * How many lines have changed.
+   */
+  changed: number;
+  /**
+   * How many lines the program had.
+   */
+  of: number;
+  /**
+   * The first of them.
+   */
+  lines: ChangedLine[];
+}
+/**
+ * A line as it was, and what it became.
+ */
+export interface ChangedLine {
+  /**
+   * Its number in the program as it was.
+   */
+  line: number;
+  /**
+   * As it was.
+   */
+  was: string;
+  /**
+   * What it became.
+   */
+  is: string[];
+}
+/**
+ * Makes the compensation tables of a control.
+ */
+export interface ServeCompensateTablesRequest {
+  /**
+   * The machine file.
+   */
+  machine: string;
+  /**
+   * The control, such as `sinumerik`.
+   */
+  target: string;
+  /**
+   * As `--at`: the position of the other axes.
+   */
+  at?: string | null;
+  /**
+   * As `--bound`; `1 um` if it is left out.
+   */
+  bound?: string | null;
+  /**
+   * As `--no-kinematics`; false if it is left out.
+   */
+  no_kinematics?: boolean | null;
+  /**
+   * Temperatures as `--temperature` takes them.
+   */
+  temperature?: string | null;
+  /**
+   * As `--machine-only`; false if it is left out.
+   */
+  machine_only?: boolean | null;
+  /**
+   * The study of a test piece or a part that is cut with the tables.
+   */
+  piece?: string | null;
+}
+/**
+ * Tables of a control.
+ */
+export interface ServeCompensateTables {
+  /**
+   * The document of `trueaxis compensate tables`.
+   */
+  document: TablesDocument;
+  /**
+   * Its report.
+   */
+  shown: ShownEntry;
+  /**
+   * The tables.
+   */
+  made: MadeEntry;
+  /**
+   * The problems of the machine.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * Tables of one control, and what they leave of the errors: `trueaxis/compensate-tables/1`.
+ */
+export interface TablesDocument {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/compensate-tables/1";
+  /**
+   * The name of the machine.
+   */
+  machine: string;
+  /**
+   * The control, as `--target` names it.
+   */
+  target: string;
+  /**
+   * The files that were written.
+   */
+  files: string[];
+  /**
+   * The values are added to the command.
+   */
+  added_to: string;
+  /**
+   * Where the other axes stand for each table, mm and deg.
+   */
+  reference: {
+    [k: string]: number;
+  };
+  /**
+   * The tables.
+   */
+  tables: TableEntry[];
+  /**
+   * Errors that the control's own chain holds.
+   */
+  known: KnownEntry[];
+  /**
+   * Lines by which the control follows temperatures.
+   */
+  temperature: LineEntry[];
+  /**
+   * Rotary axes in the control's kinematics.
+   */
+  kinematics: JointEntry[];
+  /**
+   * The grid of corrections in space; null if there is none.
+   */
+  grid: GridEntry | null;
+  /**
+   * What was left out, and why.
+   */
+  left_out: LeftOutEntry[];
+  /**
+   * The errors that the tables represent.
+   */
+  represents: string[];
+  /**
+   * The errors that they cannot represent.
+   */
+  cannot: LossEntry[];
+  /**
+   * Deviation of the tool over the travel without tables, µm.
+   */
+  before_um: ServeCompensateTablesResidualEntry;
+  /**
+   * The same with the tables, µm.
+   */
+  left_um: ProvedEntry;
+  /**
+   * The same after the part zero was set with the tables in force, the axes at `reference`, µm.
+   */
+  left_zero_set_um: ServeCompensateTablesResidualEntry;
+  /**
+   * The same if the control took them with the wrong sign, µm.
+   */
+  wrong_sign_um: ServeCompensateTablesResidualEntry;
+  /**
+   * What to do at the control.
+   */
+  notes: string[];
+  /**
+   * What tables of the machine alone can cost; present only where the temperature of the workpiece is not
+   * known.
+   */
+  machine_only?: string | null;
+}
+/**
+ * Deviation of the tool over the travel of all axes.
+ */
+export interface ServeCompensateTablesResidualEntry {
+  /**
+   * The largest of the tip. Unit: µm.
+   */
+  max: number;
+  /**
+   * Root mean square of the tip. Unit: µm.
+   */
+  rms: number;
+  /**
+   * Where the largest is, mm and deg.
+   */
+  at: {
+    [k: string]: number;
+  };
+  /**
+   * How many poses, each from both sides.
+   */
+  poses: number;
+  /**
+   * The largest of the tool axis, µrad.
+   */
+  axis_urad: number;
+}
+/**
+ * The controls that tables can be made for.
+ */
+export interface ServeCompensateTargetsRequest {}
+/**
+ * A control that tables can be made for.
+ */
+export interface ServeCompensateTargetsTargetEntry {
+  /**
+   * Its name in requests, and after `--target` of the command line.
+   */
+  key: string;
+  /**
+   * What it is, and which files it reads.
+   */
+  title: string;
+}
+/**
+ * Calculates values per axis and position.
+ */
+export interface ServeCompensateValuesRequest {
+  /**
+   * The machine file.
+   */
+  machine: string;
+  /**
+   * The axis of a table over the travel.
+   */
+  axis: string;
+  /**
+   * As `--at`: the position of the other axes.
+   */
+  at?: string | null;
+  /**
+   * As `--step`: distance of the positions, mm or degrees.
+   */
+  step?: string | null;
+  /**
+   * As `--increment`: the least increment of the control, with its unit.
+   */
+  increment?: string | null;
+  /**
+   * As `--of`: the error of the machine alone, or machine − workpiece; the latter if it is left out.
+   */
+  of?: CompensatedError | null;
+  /**
+   * Temperatures as `--temperature` takes them.
+   */
+  temperature?: string | null;
+  /**
+   * As `--machine-only`; false if it is left out.
+   */
+  machine_only?: boolean | null;
+}
+/**
+ * Values of one axis.
+ */
+export interface ServeCompensateValues {
+  /**
+   * The document of `trueaxis compensate values`.
+   */
+  document: CompensationDocument;
+  /**
+   * Its report.
+   */
+  shown: ShownEntry;
+  /**
+   * The values as CSV.
+   */
+  made: MadeEntry;
+  /**
+   * The problems of the machine.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * Values that the control has to add to its commands: `trueaxis/compensate/1`.
+ */
+export interface CompensationDocument {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/compensate/1";
+  /**
+   * `values`.
+   */
+  what: string;
+  /**
+   * The name of the machine.
+   */
+  machine: string;
+  /**
+   * The values are added to the command.
+   */
+  added_to: string;
+  /**
+   * One entry for each axis.
+   */
+  axes: AxisValues[];
+  /**
+   * Where compensating the machine alone makes the part worse, or can.
+   */
+  warnings: string[];
+}
+/**
  * The machine as data; of one that cannot be used, what is wrong with it.
  */
 export interface ServeDescribeRequest {
@@ -11223,6 +12033,283 @@ export interface ServeLiveDiagnosed {
    * The problems found in the input.
    */
   diagnostics: DiagnosticEntry[];
+}
+/**
+ * Looks at readings while they are taken.
+ */
+export interface ServeMeasureCheckRequest {
+  /**
+   * The campaign file.
+   */
+  campaign: string;
+  /**
+   * The instrument.
+   */
+  instrument: string;
+  /**
+   * The name of the table, for messages.
+   */
+  name: string;
+  /**
+   * The table: CSV as `identify` takes it.
+   */
+  text: string;
+}
+/**
+ * What the readings so far say.
+ */
+export interface ServeMeasureCheck {
+  /**
+   * How many readings.
+   */
+  readings: number;
+  /**
+   * In how many places.
+   */
+  places: number;
+  /**
+   * How many of these were read more than once.
+   */
+  repeated: number;
+  /**
+   * Each channel; empty where nothing was repeated.
+   */
+  channels: RepeatedChannel[];
+  /**
+   * The problems of the table.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * The repeatability of a channel.
+ */
+export interface RepeatedChannel {
+  /**
+   * The channel.
+   */
+  channel: string;
+  /**
+   * `um` or `urad`.
+   */
+  unit: string;
+  /**
+   * The standard deviation of readings in one place, from all places with several. Unit: that of `unit`.
+   */
+  s: number;
+  /**
+   * Its degrees of freedom.
+   */
+  degrees_of_freedom: number;
+  /**
+   * The largest difference of two readings in one place. Unit: that of `unit`.
+   */
+  largest_range: number;
+  /**
+   * The noise that the campaign states. Unit: that of `unit`.
+   */
+  stated: number;
+}
+/**
+ * Measures a campaign on a machine that exists only as a file: that of its `[truth]`.
+ */
+export interface ServeMeasureRequest {
+  /**
+   * The campaign file.
+   */
+  campaign: string;
+  /**
+   * The random seed instead of that of `[truth]`.
+   */
+  seed?: number | null;
+}
+/**
+ * The sheets of a campaign: one table for each instrument, its readings still empty.
+ */
+export interface ServeMeasureSheetRequest {
+  /**
+   * The campaign file.
+   */
+  campaign: string;
+}
+/**
+ * What is to be measured.
+ */
+export interface ServeMeasureSheet {
+  /**
+   * The name of the campaign.
+   */
+  name: string;
+  /**
+   * The name of the machine.
+   */
+  machine: string;
+  /**
+   * The machine file below the project folder; null if it is outside.
+   */
+  machine_file: string | null;
+  /**
+   * A sheet for each instrument that has stations.
+   */
+  sheets: SheetEntry[];
+  /**
+   * The problems of the campaign.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * The stations of one instrument, as `identify` reads them.
+ */
+export interface SheetEntry {
+  /**
+   * The instrument.
+   */
+  instrument: string;
+  /**
+   * Its kind, as campaign files call it.
+   */
+  kind: string;
+  /**
+   * Where the campaign has its readings, else where they can be saved: below the project folder.
+   */
+  file: string;
+  /**
+   * Whether the campaign names that file.
+   */
+  named: boolean;
+  /**
+   * Whether it is there.
+   */
+  there: boolean;
+  /**
+   * The columns.
+   */
+  columns: SheetColumn[];
+  /**
+   * The stations in their order: the cells of the columns; those of readings are empty.
+   */
+  rows: string[][];
+  /**
+   * The paths, in the order of the rows.
+   */
+  paths: SheetPath[];
+}
+/**
+ * A column of a sheet.
+ */
+export interface SheetColumn {
+  /**
+   * Its heading, with its unit, such as `x_um`; axes by their letters, mm or degrees.
+   */
+  name: string;
+  /**
+   * Whether it is read, not commanded.
+   */
+  read: boolean;
+}
+/**
+ * The stations of one path.
+ */
+export interface SheetPath {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * How many stations it has.
+   */
+  stations: number;
+}
+/**
+ * What the instruments would read.
+ */
+export interface ServeMeasure {
+  /**
+   * The document of `trueaxis measure`.
+   */
+  document: MeasurementDocument;
+  /**
+   * Its report.
+   */
+  shown: ShownEntry;
+  /**
+   * The readings of each instrument, then what is true.
+   */
+  made: MadeEntry;
+  /**
+   * The problems of the campaign.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * The readings of a virtual machine.
+ */
+export interface MeasurementDocument {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/measure/1";
+  /**
+   * Name of the campaign.
+   */
+  name: string;
+  /**
+   * Name of the machine.
+   */
+  machine: string;
+  /**
+   * Seed of the random numbers.
+   */
+  seed: number;
+  /**
+   * Duration of the measurement, s.
+   */
+  time_s: number;
+  /**
+   * Number of readings.
+   */
+  readings: number;
+  /**
+   * Number of readings that were lost.
+   */
+  lost: number;
+  /**
+   * The instruments of the campaign.
+   */
+  instruments: InstrumentEntry[];
+  /**
+   * Every channel of every instrument on every path.
+   */
+  channels: ServeMeasureChannelEntry[];
+  /**
+   * The files that were written.
+   */
+  files: string[];
+}
+/**
+ * Reading less nominal reading of one channel on one path.
+ */
+export interface ServeMeasureChannelEntry {
+  /**
+   * The path.
+   */
+  path: string;
+  /**
+   * The instrument.
+   */
+  instrument: string;
+  /**
+   * The channel.
+   */
+  channel: string;
+  /**
+   * Number of readings.
+   */
+  count: number;
+  /**
+   * Row of the largest deviation, from 0.
+   */
+  largest_row: number;
+  [k: string]: number;
 }
 /**
  * The surfaces of the models of a machine, those of STL files too.
@@ -12123,11 +13210,11 @@ export interface ServeReportRequest {
    */
   verb: Verb;
   /**
-   * The file that the command takes.
+   * The file that the command takes; a folder, for `history`.
    */
   file: string;
   /**
-   * The machine file, for `simulate`.
+   * The machine file, for `simulate`; the older one, for `diff`.
    */
   machine?: string | null;
   /**
@@ -12155,6 +13242,41 @@ export interface ServeReport {
    * A name for the file.
    */
   name: string;
+}
+/**
+ * Saves a file that an answer made, under its name or another one with the same ending. A file that is there is replaced
+ * only if TrueAxis wrote it and it was not edited since.
+ */
+export interface ServeSaveMadeRequest {
+  /**
+   * The number of the files of the answer.
+   */
+  made: number;
+  /**
+   * Which of them, from 0.
+   */
+  file: number;
+  /**
+   * Its path below the project folder.
+   */
+  path: string;
+  /**
+   * The window that saves it.
+   */
+  window?: string | null;
+}
+/**
+ * A file that was saved.
+ */
+export interface ServeSaveMade {
+  /**
+   * Its path.
+   */
+  path: string;
+  /**
+   * The version of its new text.
+   */
+  version: string;
 }
 /**
  * Replaces the text of a file, if it is still the one that was opened.
@@ -12423,6 +13545,10 @@ export interface MarkEntry {
    * The line there, from 1.
    */
   line: number;
+  /**
+   * How many stretches it holds: above 1 where the nearest of many were put together.
+   */
+  stretches: number;
 }
 /**
  * A simulation of a program on a machine: `trueaxis/simulate/1`.
@@ -12456,6 +13582,10 @@ export interface SimulationDocument {
    * Whether a set-up was given; without one work offsets and tool lengths are 0.
    */
   set_up_given: boolean;
+  /**
+   * The result.
+   */
+  verdict: ServeSimulateVerdictEntry;
   /**
    * The whole time, s.
    */
@@ -12511,9 +13641,9 @@ export interface SimulationDocument {
    */
   troubles: IssueEntry[];
   /**
-   * How many more of the same kinds were found, but not listed.
+   * How many stretches of issues there are in all: the sum of `stretches`.
    */
-  troubles_left_out: number;
+  troubles_found: number;
   /**
    * How many functions of the program that move the tool or its place are not executed: they are among the
    * diagnostics.
@@ -12561,6 +13691,23 @@ export interface ServeSimulateMachineEntry {
    * Its kinematic chain from workpiece to tool.
    */
   chain: string;
+}
+/**
+ * The result in a word and a sentence.
+ */
+export interface ServeSimulateVerdictEntry {
+  /**
+   * `good`: nothing endangers part or machine and no time is lost; `bad`; `open`: neither.
+   */
+  standing: "good" | "bad" | "open";
+  /**
+   * Such as `CRITICAL`.
+   */
+  word: string;
+  /**
+   * What that means.
+   */
+  sentence: string;
 }
 /**
  * The motion of one axis.
@@ -13234,6 +14381,837 @@ export interface StandardEntry {
   title: string;
 }
 /**
+ * One line of a program, as `trueaxis trace` shows its block.
+ */
+export interface ServeTraceRequest {
+  /**
+   * The machine file.
+   */
+  machine: string;
+  /**
+   * The program.
+   */
+  program?: string | null;
+  /**
+   * The set-up file; the one beside the program if it is left out.
+   */
+  setup?: string | null;
+  /**
+   * The control that the program is for, as `--control` of the command line.
+   */
+  control?: string | null;
+  /**
+   * The name of a program that was dropped.
+   */
+  name?: string | null;
+  /**
+   * Its text.
+   */
+  text?: string | null;
+  /**
+   * The line of the block, from 1.
+   */
+  line: number;
+}
+/**
+ * A document of the command line with the problems of its input.
+ */
+export interface ServeTrace {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/trace/1";
+  /**
+   * The machine.
+   */
+  machine: MachineEntry;
+  /**
+   * The file of the program.
+   */
+  program: string;
+  /**
+   * The block that was asked for: its number N, else its line.
+   */
+  block: number;
+  /**
+   * Its line in the program.
+   */
+  line: number;
+  /**
+   * Its text.
+   */
+  text: string;
+  /**
+   * How often it is executed; the first time is traced.
+   */
+  executions: number;
+  /**
+   * What the interpreter of the control makes of it.
+   */
+  programmed: ProgrammedEntry;
+  /**
+   * The points into which its path is divided.
+   */
+  nodes: NodeEntry[];
+  /**
+   * The positions of the axes, mm and degrees.
+   */
+  axes?: {
+    [k: string]: number;
+  };
+  /**
+   * The nominal tool in the workpiece frame.
+   */
+  nominal?: ToolPoseEntry;
+  /**
+   * The actual tool there.
+   */
+  actual?: ToolPoseEntry;
+  /**
+   * Actual − nominal.
+   */
+  deviation?: PathDeviationEntry;
+  /**
+   * When the block runs.
+   */
+  time?: TimeEntry;
+  /**
+   * The deviation at its end under each error alone; absent if nothing moves.
+   */
+  budget?: ShareEntry[] | null;
+  /**
+   * The place of every body at its end; absent if nothing moves.
+   */
+  bodies?: BodyEntry[] | null;
+  /**
+   * The problems found in the input.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * A block as the control reads it.
+ */
+export interface ProgrammedEntry {
+  /**
+   * Its moves.
+   */
+  moves: MoveEntry[];
+  /**
+   * What else it does, in words.
+   */
+  events: string[];
+  /**
+   * The program frame.
+   */
+  frame: TraceFrameEntry;
+  /**
+   * Whether the tip of the tool is programmed (RTCP, TRAORI, TCPM).
+   */
+  tool_centre: boolean;
+  /**
+   * Whether the frame is that of a tilted working plane.
+   */
+  tilted_plane: boolean;
+  /**
+   * How the tool axis is interpolated: `axes`, `great circle` or `cone`.
+   */
+  orientation: string;
+  /**
+   * The number of the tool in the spindle.
+   */
+  tool: number;
+  /**
+   * The tool length that is in effect, mm along X, Y and Z.
+   */
+  tool_length_mm: number[];
+}
+/**
+ * A move as it is programmed.
+ */
+export interface MoveEntry {
+  /**
+   * `rapid`, `line`, `circle`, `thread` and so on.
+   */
+  kind: string;
+  /**
+   * The position of the axes that are named, mm and degrees, in the program frame.
+   */
+  target: {
+    [k: string]: number;
+  };
+  /**
+   * The tool axis if it is programmed as a vector. Unit: 1.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  direction: [number, number, number] | null;
+  /**
+   * The feed with its unit, or `rapid`.
+   */
+  feed: string;
+}
+/**
+ * A program frame.
+ */
+export interface TraceFrameEntry {
+  /**
+   * Rotation, scale and mirror of X, Y and Z, row by row. Unit: 1.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  linear: [[number, number, number], [number, number, number], [number, number, number]];
+  /**
+   * Its origin: X Y Z A B C U V W, mm and degrees. Unit: mm or deg.
+   *
+   * @minItems 9
+   * @maxItems 9
+   */
+  shift: [number, number, number, number, number, number, number, number, number];
+}
+/**
+ * A point of the path.
+ */
+export interface NodeEntry {
+  /**
+   * The nominal tool in the workpiece frame.
+   */
+  nominal: ToolPoseEntry;
+  /**
+   * The actual tool there.
+   */
+  actual: ToolPoseEntry;
+  /**
+   * Actual − nominal.
+   */
+  deviation: PathDeviationEntry;
+  /**
+   * The positions of the axes, mm and degrees.
+   */
+  axes: {
+    [k: string]: number;
+  };
+  /**
+   * The time since the start of the program, s.
+   */
+  time_s: number;
+}
+/**
+ * A deviation of the tool on its path.
+ */
+export interface PathDeviationEntry {
+  /**
+   * Of the tip, µm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  tip_um: [number, number, number];
+  /**
+   * Of the axis, µrad.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  axis_urad: [number, number, number];
+  /**
+   * Of the tip along the feed, µm.
+   */
+  feed_um: number;
+  /**
+   * Of the tip along the principal normal of the path, µm.
+   */
+  normal_um: number;
+  /**
+   * Of the tip along the binormal of the path, µm.
+   */
+  binormal_um: number;
+}
+/**
+ * When a block runs.
+ */
+export interface TimeEntry {
+  /**
+   * Its start, s since the start of the program.
+   */
+  from_s: number;
+  /**
+   * Its end, s.
+   */
+  to_s: number;
+  /**
+   * The speed of the tip at its end, mm/min.
+   */
+  speed_mm_per_min: number;
+}
+/**
+ * Verifies.
+ */
+export interface ServeVerifyRequest {
+  /**
+   * What is asked.
+   */
+  what: VerifiedSubject;
+  /**
+   * The file that `what` takes; the older machine file of `diff`, a folder or a file of `history`.
+   */
+  file: string;
+  /**
+   * The newer machine file of `diff`.
+   */
+  new?: string | null;
+  /**
+   * Limits of figures of `history`, as `--limit` of the command line: `EC0X=40 urad`.
+   */
+  limits?: string[] | null;
+}
+/**
+ * What was verified.
+ */
+export interface ServeVerify {
+  /**
+   * The document of `trueaxis verify`.
+   */
+  document: VerifiedDocument;
+  /**
+   * Its report.
+   */
+  shown: ShownEntry;
+  /**
+   * The problems of the input.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * Readings compared with a prediction, or with other readings.
+ */
+export interface VerifyDocument {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/verify/1";
+  /**
+   * The name of the comparison.
+   */
+  name: string;
+  /**
+   * What the readings are compared with: `prediction` or `readings`.
+   */
+  against: string;
+  /**
+   * How many readings.
+   */
+  readings: number;
+  /**
+   * The coverage factor k of U = k·u. Unit: 1.
+   */
+  coverage_factor: number;
+  /**
+   * The decision rule in words.
+   */
+  rule: string;
+  /**
+   * `pass`, `fail` or `undecided`.
+   */
+  verdict: string;
+  /**
+   * How many numbers pass.
+   */
+  pass: number;
+  /**
+   * How many fail.
+   */
+  fail: number;
+  /**
+   * How many are neither.
+   */
+  undecided: number;
+  /**
+   * The share of all numbers within U.
+   */
+  coverage: CoverageEntry;
+  /**
+   * By instrument.
+   */
+  instruments: PartEntry[];
+  /**
+   * By place, the worst first.
+   */
+  places: PlacePartEntry[];
+  /**
+   * Every number.
+   */
+  deviations: DifferenceEntry[];
+}
+/**
+ * A share of numbers within U.
+ */
+export interface CoverageEntry {
+  /**
+   * How many numbers.
+   */
+  numbers: number;
+  /**
+   * How many of them are within U.
+   */
+  inside: number;
+  /**
+   * The number of independent ones: errors of the machine shift many readings at once. Unit: 1.
+   */
+  independent: number;
+  /**
+   * `inside` over `numbers`. Unit: 1.
+   */
+  share: number;
+  /**
+   * The 95 % interval of the share (Wilson). Unit: 1.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  interval_95: [number, number];
+  /**
+   * The share that is expected. Unit: 1.
+   */
+  expected: number;
+}
+/**
+ * The numbers of an instrument or a place. Its root mean squares are `rms_nominal_um` (nominal machine; null
+ * against readings) and `rms_um` (machine file, or between the two sets of readings), µm; `…_urad`, µrad, of an
+ * instrument that measures angles.
+ */
+export interface PartEntry {
+  /**
+   * The name of the instrument.
+   */
+  instrument: string;
+  /**
+   * The share within U.
+   */
+  coverage: CoverageEntry;
+  /**
+   * The largest |deviation| / U; null where U is 0. Unit: 1.
+   */
+  largest_ratio: number | null;
+  [k: string]: number | null;
+}
+/**
+ * The numbers of a place.
+ */
+export interface PlacePartEntry {
+  /**
+   * The name of the instrument.
+   */
+  instrument: string;
+  /**
+   * The share within U.
+   */
+  coverage: CoverageEntry;
+  /**
+   * The largest |deviation| / U; null where U is 0. Unit: 1.
+   */
+  largest_ratio: number | null;
+  /**
+   * The number of the place.
+   */
+  group: number;
+  /**
+   * A line of the readings there.
+   */
+  line: number;
+  [k: string]: number | null;
+}
+/**
+ * One number: `deviation_um`, measured − expected, and `expanded_um`, its U, in µm; `…_urad` in µrad.
+ */
+export interface DifferenceEntry {
+  /**
+   * The name of the instrument.
+   */
+  instrument: string;
+  /**
+   * The line of its reading.
+   */
+  line: number;
+  /**
+   * The channel of the instrument, from 0.
+   */
+  channel: number;
+  [k: string]: number;
+}
+/**
+ * Two calibrations of one machine: which errors have changed.
+ */
+export interface DiffDocument {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/diff/1";
+  /**
+   * The version of TrueAxis.
+   */
+  version: string;
+  /**
+   * The name of the newer machine.
+   */
+  machine: string;
+  /**
+   * Its kinematic chain from the workpiece to the tool.
+   */
+  chain: string;
+  /**
+   * The older file.
+   */
+  old: string;
+  /**
+   * The newer file.
+   */
+  new: string;
+  /**
+   * The names of the errors that have changed significantly.
+   */
+  moved: string[];
+  /**
+   * The bound of the change of one error in its standard uncertainty, so that among all errors none is
+   * above it by chance with 95 %. Unit: 1.
+   */
+  limit_u: number;
+  /**
+   * All errors.
+   */
+  errors: ErrorChangeEntry[];
+  /**
+   * What the changes do to the tip.
+   */
+  tip: TipChangeEntry;
+}
+/**
+ * Figures of one machine over its calibrations: `trueaxis/history/1`.
+ */
+export interface HistoryDocument {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/history/1";
+  /**
+   * The version of the program.
+   */
+  version: string;
+  /**
+   * The machine.
+   */
+  machine: string;
+  /**
+   * Whether nothing needs attention: no jump, no point outside of the control limits, no limit exceeded.
+   */
+  quiet: boolean;
+  /**
+   * Every figure with at least two dates.
+   */
+  series: SeriesEntry[];
+  /**
+   * Figures with one date only.
+   */
+  single: string[];
+}
+/**
+ * The certificate of a volumetric compensation.
+ */
+export interface CertificateDocument {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/certificate/1";
+  /**
+   * The version of TrueAxis.
+   */
+  version: string;
+  /**
+   * The name of the study.
+   */
+  name: string;
+  /**
+   * `pass`, `fail` or `undecided`.
+   */
+  verdict: string;
+  /**
+   * The reason in one sentence.
+   */
+  reason: string;
+  /**
+   * Number, customer, place, instruments with their certificates; null where they are not stated.
+   */
+  certificate: CertificateHead | null;
+  /**
+   * The machine.
+   */
+  machine: MachineEntry;
+  /**
+   * Its identified errors.
+   */
+  errors: CertifiedErrorEntry[];
+  /**
+   * How they were determined.
+   */
+  determination: DeterminationEntry;
+  /**
+   * How they are compensated.
+   */
+  compensation: CompensationEntry;
+  /**
+   * How the compensation was put into the control.
+   */
+  application: ApplicationEntry;
+  /**
+   * The measurement with the compensation in effect, at poses that the determination did not use.
+   */
+  validation: ValidationEntry;
+  /**
+   * The prediction for the zone in which the certificate holds.
+   */
+  zone: ZoneEntry;
+  /**
+   * The decision.
+   */
+  decision: DecisionEntry;
+  /**
+   * Every file that was read.
+   */
+  inputs: FileEntry[];
+}
+/**
+ * Virtual lasers before and after compensation.
+ */
+export interface BeforeAfterDocument {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/before-after/1";
+  /**
+   * Name of the campaign.
+   */
+  name: string;
+  /**
+   * Name of the machine file.
+   */
+  machine: string;
+  /**
+   * Name of the machine that was measured.
+   */
+  measured: string;
+  /**
+   * Seed of the random numbers; each compensation has the next one.
+   */
+  seed: number;
+  /**
+   * `values`, or `tables` of a control.
+   */
+  added_by: string;
+  /**
+   * The least increment of a value of a linear axis, µm.
+   */
+  increment_um: number;
+  /**
+   * The lasers.
+   */
+  lasers: LaserEntry[];
+  /**
+   * The readings, axis by axis.
+   */
+  curves: CurveEntry[];
+  /**
+   * The files that were written.
+   */
+  files: string[];
+}
+/**
+ * Measured test pieces against their tolerances and their prediction.
+ */
+export interface VerifyPartDocument {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/verify-part/1";
+  /**
+   * The name of the file.
+   */
+  name: string;
+  /**
+   * The test piece.
+   */
+  test_piece: string;
+  /**
+   * What the prediction is.
+   */
+  prediction: string;
+  /**
+   * How many parts were measured.
+   */
+  parts: number;
+  /**
+   * The coverage factor k of U = k·u. Unit: 1.
+   */
+  coverage_factor: number;
+  /**
+   * The decision rule in words.
+   */
+  rule: string;
+  /**
+   * `pass`, `fail` or `undecided`: the parts against their tolerances.
+   */
+  verdict: string;
+  /**
+   * Why, in a sentence.
+   */
+  reason: string;
+  /**
+   * Whether the parts were measured in the frame of the best fit.
+   */
+  best_fit: boolean;
+  /**
+   * Index after index.
+   */
+  indices: PartIndexEntry[];
+  /**
+   * The circles of every section of every part that was measured by points.
+   */
+  sections: PartSectionEntry[];
+  /**
+   * What the reader of the numbers should know.
+   */
+  warnings: string[];
+}
+/**
+ * One index.
+ */
+export interface PartIndexEntry {
+  /**
+   * Its key.
+   */
+  index: string;
+  /**
+   * Whether it decides.
+   */
+  decisive: boolean;
+  /**
+   * The predicted value, mm.
+   */
+  predicted_mm: number | null;
+  /**
+   * Its standard uncertainty, mm; null if not stated.
+   */
+  u_predicted_mm: number | null;
+  /**
+   * What the noise of the points adds to the predicted index on average, mm; 0 if not known.
+   */
+  noise_mm: number;
+  /**
+   * Part after part, mm.
+   */
+  measured_mm: number[];
+  /**
+   * Their standard uncertainties, mm; null if not stated.
+   */
+  u_measured_mm: number[] | null;
+  /**
+   * Mean of the parts, mm.
+   */
+  mean_mm: number | null;
+  /**
+   * Its standard uncertainty with the spread of the parts, mm.
+   */
+  u_mean_mm: number | null;
+  /**
+   * Predicted over measured mean (Fig 20 of Wu et al. 2022), %.
+   */
+  ratio_percent: number | null;
+  /**
+   * The same with the mean that the sheet prints, %; null if it prints none.
+   */
+  printed_ratio_percent: number | null;
+  /**
+   * |measured mean − predicted| over its expanded uncertainty; null where that is 0. Unit: 1.
+   */
+  e_n: number | null;
+  /**
+   * Whether both agree within their uncertainties.
+   */
+  agrees: boolean | null;
+  /**
+   * Its limit, mm.
+   */
+  tolerance_mm: number | null;
+  /**
+   * Part after part `pass`, `fail` or `undecided`, where there is a limit.
+   */
+  verdicts: string[];
+  /**
+   * What else is said about it.
+   */
+  note: string;
+}
+/**
+ * One section of one part.
+ */
+export interface PartSectionEntry {
+  /**
+   * The number of the part, from 1.
+   */
+  part: number;
+  /**
+   * The file of its points.
+   */
+  file: string;
+  /**
+   * Height in the workpiece frame, mm.
+   */
+  z_mm: number;
+  /**
+   * Height above the base, mm.
+   */
+  height_mm: number;
+  /**
+   * Number of points.
+   */
+  points: number;
+  /**
+   * Nominal radius, mm.
+   */
+  nominal_radius_mm: number;
+  /**
+   * Radius of the least-squares circle, mm.
+   */
+  radius_mm: number;
+  /**
+   * Centre of the least-squares circle, mm.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  centre_mm: [number, number];
+  /**
+   * Roundness about it, mm.
+   */
+  roundness_lsc_mm: number;
+  /**
+   * Width of the minimum zone, mm.
+   */
+  roundness_mzc_mm: number;
+  /**
+   * Width of the predicted minimum zone, mm; null without a study.
+   */
+  predicted_roundness_mzc_mm: number | null;
+  /**
+   * Azimuth of each point, deg.
+   */
+  azimuth_deg: number[];
+  /**
+   * E of each point, mm; positive: material left.
+   */
+  e_mm: number[];
+}
+/**
  * The same for a changed machine, without Monte Carlo, fast enough to follow a slider.
  */
 export interface ServeWhatIfRequest {
@@ -13346,6 +15324,10 @@ export interface Simulate {
    */
   set_up_given: boolean;
   /**
+   * The result.
+   */
+  verdict: SimulateVerdictEntry;
+  /**
    * The whole time, s.
    */
   time_s: number;
@@ -13400,9 +15382,9 @@ export interface Simulate {
    */
   troubles: IssueEntry[];
   /**
-   * How many more of the same kinds were found, but not listed.
+   * How many stretches of issues there are in all: the sum of `stretches`.
    */
-  troubles_left_out: number;
+  troubles_found: number;
   /**
    * How many functions of the program that move the tool or its place are not executed: they are among the
    * diagnostics.
@@ -13483,6 +15465,23 @@ export interface SimulateMachineEntry {
    * Its kinematic chain from workpiece to tool.
    */
   chain: string;
+}
+/**
+ * The result in a word and a sentence.
+ */
+export interface SimulateVerdictEntry {
+  /**
+   * `good`: nothing endangers part or machine and no time is lost; `bad`; `open`: neither.
+   */
+  standing: "good" | "bad" | "open";
+  /**
+   * Such as `CRITICAL`.
+   */
+  word: string;
+  /**
+   * What that means.
+   */
+  sentence: string;
 }
 /**
  * The motion of one axis.
@@ -14116,163 +16115,6 @@ export interface Trace {
   }[];
 }
 /**
- * A block as the control reads it.
- */
-export interface ProgrammedEntry {
-  /**
-   * Its moves.
-   */
-  moves: MoveEntry[];
-  /**
-   * What else it does, in words.
-   */
-  events: string[];
-  /**
-   * The program frame.
-   */
-  frame: TraceFrameEntry;
-  /**
-   * Whether the tip of the tool is programmed (RTCP, TRAORI, TCPM).
-   */
-  tool_centre: boolean;
-  /**
-   * Whether the frame is that of a tilted working plane.
-   */
-  tilted_plane: boolean;
-  /**
-   * How the tool axis is interpolated: `axes`, `great circle` or `cone`.
-   */
-  orientation: string;
-  /**
-   * The number of the tool in the spindle.
-   */
-  tool: number;
-  /**
-   * The tool length that is in effect, mm along X, Y and Z.
-   */
-  tool_length_mm: number[];
-}
-/**
- * A move as it is programmed.
- */
-export interface MoveEntry {
-  /**
-   * `rapid`, `line`, `circle`, `thread` and so on.
-   */
-  kind: string;
-  /**
-   * The position of the axes that are named, mm and degrees, in the program frame.
-   */
-  target: {
-    [k: string]: number;
-  };
-  /**
-   * The tool axis if it is programmed as a vector. Unit: 1.
-   *
-   * @minItems 3
-   * @maxItems 3
-   */
-  direction: [number, number, number] | null;
-  /**
-   * The feed with its unit, or `rapid`.
-   */
-  feed: string;
-}
-/**
- * A program frame.
- */
-export interface TraceFrameEntry {
-  /**
-   * Rotation, scale and mirror of X, Y and Z, row by row. Unit: 1.
-   *
-   * @minItems 3
-   * @maxItems 3
-   */
-  linear: [[number, number, number], [number, number, number], [number, number, number]];
-  /**
-   * Its origin: X Y Z A B C U V W, mm and degrees. Unit: mm or deg.
-   *
-   * @minItems 9
-   * @maxItems 9
-   */
-  shift: [number, number, number, number, number, number, number, number, number];
-}
-/**
- * A point of the path.
- */
-export interface NodeEntry {
-  /**
-   * The nominal tool in the workpiece frame.
-   */
-  nominal: ToolPoseEntry;
-  /**
-   * The actual tool there.
-   */
-  actual: ToolPoseEntry;
-  /**
-   * Actual − nominal.
-   */
-  deviation: PathDeviationEntry;
-  /**
-   * The positions of the axes, mm and degrees.
-   */
-  axes: {
-    [k: string]: number;
-  };
-  /**
-   * The time since the start of the program, s.
-   */
-  time_s: number;
-}
-/**
- * A deviation of the tool on its path.
- */
-export interface PathDeviationEntry {
-  /**
-   * Of the tip, µm.
-   *
-   * @minItems 3
-   * @maxItems 3
-   */
-  tip_um: [number, number, number];
-  /**
-   * Of the axis, µrad.
-   *
-   * @minItems 3
-   * @maxItems 3
-   */
-  axis_urad: [number, number, number];
-  /**
-   * Of the tip along the feed, µm.
-   */
-  feed_um: number;
-  /**
-   * Of the tip along the principal normal of the path, µm.
-   */
-  normal_um: number;
-  /**
-   * Of the tip along the binormal of the path, µm.
-   */
-  binormal_um: number;
-}
-/**
- * When a block runs.
- */
-export interface TimeEntry {
-  /**
-   * Its start, s since the start of the program.
-   */
-  from_s: number;
-  /**
-   * Its end, s.
-   */
-  to_s: number;
-  /**
-   * The speed of the tip at its end, mm/min.
-   */
-  speed_mm_per_min: number;
-}
-/**
  * Measured test pieces against their tolerances and their prediction.
  */
 export interface VerifyPart {
@@ -14361,135 +16203,6 @@ export interface VerifyPart {
      */
     hint: string;
   }[];
-}
-/**
- * One index.
- */
-export interface PartIndexEntry {
-  /**
-   * Its key.
-   */
-  index: string;
-  /**
-   * Whether it decides.
-   */
-  decisive: boolean;
-  /**
-   * The predicted value, mm.
-   */
-  predicted_mm: number | null;
-  /**
-   * Its standard uncertainty, mm; null if not stated.
-   */
-  u_predicted_mm: number | null;
-  /**
-   * What the noise of the points adds to the predicted index on average, mm; 0 if not known.
-   */
-  noise_mm: number;
-  /**
-   * Part after part, mm.
-   */
-  measured_mm: number[];
-  /**
-   * Their standard uncertainties, mm; null if not stated.
-   */
-  u_measured_mm: number[] | null;
-  /**
-   * Mean of the parts, mm.
-   */
-  mean_mm: number | null;
-  /**
-   * Its standard uncertainty with the spread of the parts, mm.
-   */
-  u_mean_mm: number | null;
-  /**
-   * Predicted over measured mean (Fig 20 of Wu et al. 2022), %.
-   */
-  ratio_percent: number | null;
-  /**
-   * The same with the mean that the sheet prints, %; null if it prints none.
-   */
-  printed_ratio_percent: number | null;
-  /**
-   * |measured mean − predicted| over its expanded uncertainty; null where that is 0. Unit: 1.
-   */
-  e_n: number | null;
-  /**
-   * Whether both agree within their uncertainties.
-   */
-  agrees: boolean | null;
-  /**
-   * Its limit, mm.
-   */
-  tolerance_mm: number | null;
-  /**
-   * Part after part `pass`, `fail` or `undecided`, where there is a limit.
-   */
-  verdicts: string[];
-  /**
-   * What else is said about it.
-   */
-  note: string;
-}
-/**
- * One section of one part.
- */
-export interface PartSectionEntry {
-  /**
-   * The number of the part, from 1.
-   */
-  part: number;
-  /**
-   * The file of its points.
-   */
-  file: string;
-  /**
-   * Height in the workpiece frame, mm.
-   */
-  z_mm: number;
-  /**
-   * Height above the base, mm.
-   */
-  height_mm: number;
-  /**
-   * Number of points.
-   */
-  points: number;
-  /**
-   * Nominal radius, mm.
-   */
-  nominal_radius_mm: number;
-  /**
-   * Radius of the least-squares circle, mm.
-   */
-  radius_mm: number;
-  /**
-   * Centre of the least-squares circle, mm.
-   *
-   * @minItems 2
-   * @maxItems 2
-   */
-  centre_mm: [number, number];
-  /**
-   * Roundness about it, mm.
-   */
-  roundness_lsc_mm: number;
-  /**
-   * Width of the minimum zone, mm.
-   */
-  roundness_mzc_mm: number;
-  /**
-   * Width of the predicted minimum zone, mm; null without a study.
-   */
-  predicted_roundness_mzc_mm: number | null;
-  /**
-   * Azimuth of each point, deg.
-   */
-  azimuth_deg: number[];
-  /**
-   * E of each point, mm; positive: material left.
-   */
-  e_mm: number[];
 }
 /**
  * Readings compared with a prediction, or with other readings.
@@ -14584,100 +16297,4 @@ export interface Verify {
      */
     hint: string;
   }[];
-}
-/**
- * A share of numbers within U.
- */
-export interface CoverageEntry {
-  /**
-   * How many numbers.
-   */
-  numbers: number;
-  /**
-   * How many of them are within U.
-   */
-  inside: number;
-  /**
-   * The number of independent ones: errors of the machine shift many readings at once. Unit: 1.
-   */
-  independent: number;
-  /**
-   * `inside` over `numbers`. Unit: 1.
-   */
-  share: number;
-  /**
-   * The 95 % interval of the share (Wilson). Unit: 1.
-   *
-   * @minItems 2
-   * @maxItems 2
-   */
-  interval_95: [number, number];
-  /**
-   * The share that is expected. Unit: 1.
-   */
-  expected: number;
-}
-/**
- * The numbers of an instrument or a place. Its root mean squares are `rms_nominal_um` (nominal machine; null
- * against readings) and `rms_um` (machine file, or between the two sets of readings), µm; `…_urad`, µrad, of an
- * instrument that measures angles.
- */
-export interface PartEntry {
-  /**
-   * The name of the instrument.
-   */
-  instrument: string;
-  /**
-   * The share within U.
-   */
-  coverage: CoverageEntry;
-  /**
-   * The largest |deviation| / U; null where U is 0. Unit: 1.
-   */
-  largest_ratio: number | null;
-  [k: string]: number | null;
-}
-/**
- * The numbers of a place.
- */
-export interface PlacePartEntry {
-  /**
-   * The name of the instrument.
-   */
-  instrument: string;
-  /**
-   * The share within U.
-   */
-  coverage: CoverageEntry;
-  /**
-   * The largest |deviation| / U; null where U is 0. Unit: 1.
-   */
-  largest_ratio: number | null;
-  /**
-   * The number of the place.
-   */
-  group: number;
-  /**
-   * A line of the readings there.
-   */
-  line: number;
-  [k: string]: number | null;
-}
-/**
- * One number: `deviation_um`, measured − expected, and `expanded_um`, its U, in µm; `…_urad` in µrad.
- */
-export interface DifferenceEntry {
-  /**
-   * The name of the instrument.
-   */
-  instrument: string;
-  /**
-   * The line of its reading.
-   */
-  line: number;
-  /**
-   * The channel of the instrument, from 0.
-   */
-  channel: number;
-  [k: string]: number;
 }

@@ -14,6 +14,8 @@ $trueaxis evaluate iso230-10 $verify/probe-performance.csv --report "$out/probe.
 $trueaxis evaluate iso230-10 $verify/probe-performance.csv --format json
 $trueaxis evaluate iso230-2 $verify/x-axis-laser.csv --report "$out/x.html"
 $trueaxis evaluate iso230-2 $verify/x-axis-laser.csv --format json
+# The same with a heading, to be filed and signed; named x.pdf it is a PDF where the program has that (the package does).
+$trueaxis evaluate iso230-2 $verify/x-axis-laser.csv --report "$out/signed.html" --heading $verify/report-heading.toml
 $trueaxis evaluate iso230-2 $verify/c-axis-polygon.csv --report "$out/c.html"
 $trueaxis evaluate iso230-2 $verify/y-axis-long.csv
 $trueaxis evaluate vdi3441 $verify/x-axis-laser.csv

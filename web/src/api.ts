@@ -74,6 +74,7 @@ type WithArrays =
   | "what-if"
   | "plan"
   | "identify"
+  | "compensate-program"
   | "evaluate"
   | "simulate"
   | "simulation-at"

@@ -46,6 +46,8 @@ export interface Progress {
 interface Mounted {
   host: HTMLElement;
   handle: TabHandle | null;
+  /** Its module is loaded. */
+  ready: Promise<void>;
 }
 
 export class App {
@@ -54,6 +56,8 @@ export class App {
   private readonly address = new Address();
   private readonly listeners = new Set<(state: Readonly<State>) => void>();
   private readonly mounted = new Map<string, Mounted>();
+  /** How often the address has changed. */
+  private turns = 0;
   private readonly bar = h("header", { class: "bar" });
   private readonly main = h("main", { class: "main", id: "main", tabindex: "-1", lang: "en" });
   private readonly tabs = h("nav", { class: "tabs", role: "tablist", ariaLabel: words.verbs });
@@ -146,6 +150,7 @@ export class App {
     const entry = TABS.find((tab) => tab.name === name) ?? TABS[0];
     if (!entry) return;
     this.address.opened(entry.name, params);
+    const turn = ++this.turns;
     const before = this.mounted.get(this.state_.tab);
     if (this.state_.tab !== entry.name) before?.handle?.hide?.();
     this.set({ tab: entry.name, ...(params.machine ? { machine: params.machine } : {}) });
@@ -153,7 +158,8 @@ export class App {
     try {
       const now = await this.mountTab(entry);
       for (const [key, { host }] of this.mounted) host.hidden = key !== this.state_.tab;
-      if (this.state_.tab === entry.name) now.handle?.open?.(params);
+      // While its module was loaded the address may have changed again.
+      if (turn === this.turns) now.handle?.open?.(params);
     } catch (error) {
       this.fail(error);
     }
@@ -161,20 +167,26 @@ export class App {
 
   private async mountTab(entry: TabEntry): Promise<Mounted> {
     const there = this.mounted.get(entry.name);
-    if (there) return there;
+    if (there) {
+      await there.ready;
+      return there;
+    }
     const host = h("section", {
       class: `tab tab-${entry.name}`,
       id: `tab-${entry.name}`,
       role: "tabpanel",
       "aria-labelledby": `tab-link-${entry.name}`,
     });
-    const fresh: Mounted = { host, handle: null };
+    const load = async (): Promise<void> => {
+      fresh.handle = (await entry.load()).mount(host, this);
+      host.prepend(h("h1", { class: "visually-hidden" }, entry.title));
+      this.tabs.querySelector(`[data-tab="${entry.name}"]`)?.setAttribute("aria-controls", host.id);
+    };
+    const fresh: Mounted = { host, handle: null, ready: Promise.resolve() };
     this.mounted.set(entry.name, fresh);
     this.main.append(host);
-    const tab = await entry.load();
-    fresh.handle = tab.mount(host, this);
-    host.prepend(h("h1", { class: "visually-hidden" }, entry.title));
-    this.tabs.querySelector(`[data-tab="${entry.name}"]`)?.setAttribute("aria-controls", host.id);
+    fresh.ready = load();
+    await fresh.ready;
     return fresh;
   }
 

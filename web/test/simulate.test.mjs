@@ -198,6 +198,81 @@ test("tool and stock of the set-up are in the picture", async () => {
   }
 });
 
+test("why here: the contributions are those of `trueaxis trace`", async () => {
+  const { page, complaints, context, document } = await example(ring, engraver);
+  const worst = document.deviation.tip_um;
+  await page.click('[data-test="to-largest"]');
+  await shows(page, worst.time_s);
+  await page.click('[data-test="why-here"]');
+  await page.waitForSelector(".why-here table");
+  // The command takes the number N of a block.
+  const block = readFileSync(path.join(root, ring), "utf8")
+    .split("\n")
+    [worst.line - 1].match(/^N(\d+)/)[1];
+  const { budget, deviation, line } = await cli("trace", engraver, ring, "--block", block);
+  assert.equal(line, worst.line);
+  const length = (v) => Math.hypot(...v);
+  const largest = [...budget].sort((a, b) => length(b.tip_um) - length(a.tip_um))[0];
+  const row = await page.locator(".why-here tbody tr").first().locator("th, td").allTextContents();
+  const number = (v) => v.toFixed(2).replace("-", "\u2212");
+  assert.deepEqual(row.slice(0, 5), [largest.error, ...largest.tip_um.map(number), number(length(largest.tip_um))]);
+  assert.ok((await shown(page, "why-deviation")).includes(um(length(deviation.tip_um))));
+  await picture(page, "simulate-why");
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("a missing set-up is said first and is one form away", async () => {
+  const folder = mkdtempSync(path.join(os.tmpdir(), "trueaxis-no-setup-"));
+  cpSync(path.join(root, path.dirname(engraver)), path.join(folder, "machine"), { recursive: true });
+  writeFileSync(
+    path.join(folder, "plate.nc"),
+    "G21 G90 G94\nT7 M6\nG54 G0 X0 Y0\nG43 H7 Z30.\nG1 Z5. F500\nG1 X20. F800\nG0 Z30.\nM30\n",
+  );
+  const own = await serve(folder);
+  try {
+    const { page, complaints } = await open(browser, own.address);
+    await page.goto(`${own.address}#simulate?machine=machine/machine.toml&program=plate.nc&control=fanuc`);
+    await simulated(page);
+    const machine = path.join(folder, "machine/machine.toml");
+    const plate = path.join(folder, "plate.nc");
+    const before = await cli("simulate", machine, plate, "--control", "fanuc");
+    assert.equal(before.set_up_given, false);
+    assert.ok((await shown(page, "verdict")).startsWith(before.verdict.word));
+    await page.click('[data-test="no-set-up"] button');
+    const length = page.getByLabel("T7 length, mm");
+    await length.fill("9o");
+    await page.click('[data-test="set-up-save"]');
+    assert.match(await shown(page, "set-up-note"), /T7 length, mm: "9o" is not a number/);
+    await length.fill("90,5");
+    await page.getByLabel("T7 diameter, mm", { exact: true }).fill("6");
+    await page.getByLabel("Z at program zero").fill("-100");
+    await picture(page, "simulate-set-up");
+    await page.click('[data-test="set-up-save"]');
+    await page.waitForSelector('[data-test="no-set-up"]', { state: "detached" });
+    await simulated(page);
+    const file = path.join(folder, "plate.setup.toml");
+    assert.match(readFileSync(file, "utf8"), /\[tool\.7\]\nlength = "90\.5 mm"\ndiameter = "6 mm"/);
+    const after = await cli("simulate", machine, plate, "--control", "fanuc");
+    assert.equal(after.set_up_given, true);
+    assert.ok((await shown(page, "verdict")).startsWith(after.verdict.word));
+    await summaryIsThatOf(page, after);
+    // From then on its text is edited; one that has changed on the disk is not overwritten.
+    await page.click('[data-test="edit-set-up"]');
+    const text = page.locator(".set-up-dialog textarea");
+    assert.match(await text.inputValue(), /90\.5 mm/);
+    writeFileSync(file, `${readFileSync(file, "utf8")}# mine\n`);
+    await text.fill((await text.inputValue()).replace("90.5", "91"));
+    await page.click('[data-test="set-up-save"]');
+    await page.waitForFunction(() => /changed elsewhere/.test(document.querySelector(".set-up-note").textContent));
+    assert.match(readFileSync(file, "utf8"), /90\.5 mm[\s\S]*# mine/);
+    assert.deepEqual(complaints, []);
+  } finally {
+    await own.stop();
+    rmSync(folder, { recursive: true, force: true });
+  }
+});
+
 /** As if a user dropped the file on the page. */
 async function drop(page, name, text) {
   await page.evaluate(
@@ -225,7 +300,7 @@ test("a dropped program: its errors underlined, then a good one", async () => {
   assert.match(await shown(page, "verdict"), /one error/);
   await drop(page, "right.nc", "G21 G90 G94\nG1 X1 Y2 F100\nM30\n");
   await simulated(page);
-  assert.match(await shown(page, "verdict"), /^Runs/);
+  assert.match(await shown(page, "verdict"), /^(NO ISSUES|SLOWER)/);
   assert.deepEqual(complaints, []);
   await context.close();
 });

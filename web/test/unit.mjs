@@ -143,5 +143,82 @@ for (const [time_s, text] of [
 ])
   assert.equal(words.duration(time_s), text);
 
+const { setUpText, wrongNumber } = await vite.ssrLoadModule("/src/tabs/simulate/setuptext.ts");
+const nothing = { value: "", unit: "mm" };
+const form = {
+  program: 'a "b".nc',
+  control: "fanuc",
+  offset: "G55",
+  positions: { X: { value: "1,5", unit: "mm" }, C: { value: "-90", unit: "deg" }, Z: nothing },
+  start: { Z: nothing },
+  tools: [
+    { number: "3", name: "end mill", length: "90", diameter: "6", holder_diameter: "32", holder_length: "30" },
+    { number: "", name: "", length: "", diameter: "", holder_diameter: "", holder_length: "" },
+  ],
+  stock: { edges: ["10", "20", "30"], centre: ["", "", "-15"] },
+  fixtures: [{ file: "", placement: "" }],
+};
+const text = setUpText(form);
+for (const line of [
+  'name = "a \\"b\\".nc"',
+  'workpiece_at = "G55"',
+  'X = "1.5 mm"',
+  'C = "-90 deg"',
+  "[tool.3]",
+  'shape = [["6 mm", "60 mm"], ["32 mm", "30 mm"]]',
+  'box = "10 20 30 mm"',
+  'placement = "0 0 -15 mm"',
+])
+  assert.ok(text.split("\n").includes(line), `${line} in\n${text}`);
+assert.ok(!/Z =|start|fixture|\[tool\.\]/.test(text), text);
+assert.equal(wrongNumber("9o"), '"9o" is not a number');
+assert.equal(wrongNumber("0", 0), "must be greater than 0");
+assert.equal(wrongNumber(""), null);
+// Readings with a comma or a point, a real minus sign, in any order of columns; what is no number is named.
+const { Sheet, plainNumber } = await vite.ssrLoadModule("/src/tabs/measure/sheet.ts");
+for (const [text, plain] of [
+  ["1,5", "1.5"],
+  [" \u22122.25 ", "-2.25"],
+  ["+.5e-1", "+.5e-1"],
+  ["1.000,5", null],
+  ["abc", null],
+  ["", null],
+])
+  assert.equal(plainNumber(text), plain, text);
+const column = (name, read) => ({ name, read });
+const sheet = new Sheet({
+  instrument: "laser",
+  kind: "laser-line",
+  file: "l.csv",
+  named: false,
+  there: false,
+  columns: [column("X", false), column("deviation_um", true), column("group", false)],
+  rows: [
+    ["0", "", "0"],
+    ["100", "", "1"],
+  ],
+  paths: [{ name: "X", stations: 2 }],
+});
+sheet.rows[1].cells[1] = "2,5";
+sheet.repeat(1);
+assert.deepEqual(sheet.rows[2].cells, ["100", "", "1"]);
+assert.equal(sheet.csv(), "X,deviation_um,group\n100,2.5,1\n");
+sheet.rows[0].cells[1] = "x";
+assert.deepEqual(
+  sheet.bad().map((cell) => cell.words),
+  ["row 1: deviation_um \u201cx\u201d is no number"],
+);
+assert.deepEqual(sheet.take("a.csv", "# note\ndeviation_um;X;T\n1,5;0;20\n-2,5;50,5;20\n"), ["not used: T"]);
+assert.equal(sheet.csv(), "# note\nX,deviation_um\n0,1.5\n50.5,-2.5\n");
+// Without positions: one row for each station.
+assert.deepEqual(sheet.take("b.csv", "deviation_um\n1\n2\n"), []);
+assert.equal(sheet.csv(), "X,deviation_um,group\n0,1,0\n100,2,1\n");
+assert.deepEqual(
+  sheet.rows.map((row) => row.path),
+  ["X", "X"],
+);
+assert.throws(() => sheet.take("c.csv", "deviation_um\n1\n"), /1 rows without positions, and there are 2 stations/);
+assert.throws(() => sheet.take("d.csv", "X,angle_urad\n1,2\n"), /no column deviation_um/);
+
 await vite.close();
 console.log("unit checks passed");

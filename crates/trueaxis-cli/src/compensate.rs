@@ -129,5 +129,5 @@ fn run_values(arguments: ValuesArguments) -> Outcome {
     // The values know their form; on standard output JSON is that of every command, refusals too.
     let is_document = question.form == ValuesForm::Json && question.output.is_none();
     let format = if is_document { output::Format::Json } else { output::Format::Text };
-    Door { format, report: None, force: arguments.force }.ask(&question)
+    Door { format, report: None, heading: None, force: arguments.force }.ask(&question)
 }

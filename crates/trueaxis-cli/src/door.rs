@@ -10,13 +10,17 @@ use trueaxis::files::output::{Guard, Output, no_file_twice};
 use trueaxis::input::Diagnostics;
 use trueaxis::questions::{Answer, Content, NewFile, Question, is_finite, may_put};
 use trueaxis::report::refused_json;
+use trueaxis_paper::ReportFile;
 
 /// What is shown and written.
 #[derive(Args)]
 pub struct DoorArguments {
-    /// Write an HTML report to this file
+    /// Write a report to this file: FILE.html or FILE.pdf
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
+    /// The heading of the report, to be filed and signed: [report] number, date, customer, operator, logo, signatures
+    #[arg(long, value_name = "HEADING.toml", requires = "report")]
+    heading: Option<PathBuf>,
     /// Accepted as before: without --report no report is written
     #[arg(long, hide = true, conflicts_with = "report")]
     no_report: bool,
@@ -31,7 +35,8 @@ pub struct DoorArguments {
 impl DoorArguments {
     /// The door with these arguments.
     pub fn door(&self) -> Door<'_> {
-        Door { format: self.format, report: self.report.as_deref(), force: self.force }
+        let (report, heading) = (self.report.as_deref(), self.heading.as_deref());
+        Door { format: self.format, report, heading, force: self.force }
     }
 }
 
@@ -39,8 +44,10 @@ impl DoorArguments {
 pub struct Door<'a> {
     /// On standard output.
     pub format: Format,
-    /// The file of the HTML report.
+    /// The file of the report.
     pub report: Option<&'a Path>,
+    /// The file of its heading.
+    pub heading: Option<&'a Path>,
     /// Whether files are replaced that this program did not write.
     pub force: bool,
 }
@@ -55,10 +62,11 @@ impl Door<'_> {
         let mut problems = Diagnostics::new();
         let (files, read) = noted_disk();
         let input = question.read(&files, &mut problems);
+        let report_file = ReportFile::read(self.report, self.heading, &files, &mut problems);
         let guard = Guard { read, force: self.force };
-        let report_file = self.report.map(|path| Output::file("--report", path));
+        let report_output = report_file.as_ref().map(|file| Output::file("--report", file.path()));
         let outputs: Vec<_> =
-            question.outputs(input.as_ref()).into_iter().chain(report_file).collect();
+            question.outputs(input.as_ref()).into_iter().chain(report_output).collect();
         outputs.iter().for_each(|output| guard.may_write(output, &mut problems));
         let paths: Vec<&Path> = outputs.iter().map(|output| output.path.as_path()).collect();
         no_file_twice(&paths, &mut problems);
@@ -87,8 +95,8 @@ impl Door<'_> {
             }
             return Err(Outcome::Unusable);
         }
-        if let Some(path) = self.report {
-            write_report(path, answer.page())?;
+        if let Some(file) = &report_file {
+            write_report(file, answer.report())?;
         }
         files.into_iter().try_for_each(write)?;
         answer.notes().iter().for_each(|note| tell(note));

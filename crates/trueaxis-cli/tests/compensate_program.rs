@@ -380,3 +380,33 @@ fn a_program_with_a_dynamic_work_offset_is_corrected_in_place_alone() {
     let inside = written.split("G254").nth(1).and_then(|rest| rest.split("G255").next()).unwrap();
     assert!(!inside.contains(['A', 'C']), "{inside}");
 }
+
+/// Simulated without places between the ends of blocks, the program as it was has the deviations that the proof states.
+#[test]
+fn the_deviations_before_are_those_of_the_simulated_path() {
+    let folder = Folder::new("program-path");
+    let (out, path) = (folder.path("c.mpf"), folder.path("p.csv"));
+    let found = compensate(&[MACHINE, FRUSTUM, "-o", &out, "--format", "json"]).json();
+    let options = ["--no-report", "--no-densify", "--path", &path];
+    let ran = trueaxis(&[&["simulate", MACHINE, FRUSTUM], &options[..]].concat());
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let text = std::fs::read_to_string(&path).unwrap();
+    let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let names = lines.next().unwrap();
+    let column = |name: &str| names.iter().position(|n| *n == name).unwrap();
+    let cut: Vec<_> = lines.filter(|row| row[column("rapid")] == "0").collect();
+    assert_eq!(found["ends_compared"], cut.len());
+    for (key, unit, axes) in
+        [("tip_at_ends", "um", ["x", "y", "z"]), ("axis_at_ends", "urad", ["i", "j", "k"])]
+    {
+        let square = |row: &Vec<&str>| {
+            let values = axes.map(|a| row[column(&format!("dev_{a}_{unit}"))]);
+            values.iter().map(|v| v.parse::<f64>().unwrap().powi(2)).sum::<f64>()
+        };
+        let rms = (cut.iter().map(square).sum::<f64>() / cut.len() as f64).sqrt();
+        let stated = |when: &str| found[when][format!("{key}_rms_{unit}")].as_f64().unwrap();
+        assert!((stated("before") / rms - 1.0).abs() < 1e-6, "{key}: {} {rms}", stated("before"));
+        let largest = found["after"][format!("{key}_{unit}")]["value"].as_f64().unwrap();
+        assert!(stated("after") > 0.0 && stated("after") < largest, "{key}");
+    }
+}

@@ -62,7 +62,8 @@ fn a_campaign_of_a_new_folder_finds_the_errors() {
         temporary.file("m/machine.toml", &machine);
         let campaign = std::fs::read_to_string(at(file)).expect("a campaign");
         temporary.file(&format!("m/{file}"), campaign.replace("# readings =", "readings ="));
-        let ran = trueaxis(&["identify", &at(file), "--format", "json"]);
+        let measured = at("measured.toml");
+        let ran = trueaxis(&["identify", &at(file), "-o", &measured, "--format", "json"]);
         assert_ne!(ran.status, 2, "{}", ran.err);
         let document = ran.json();
         let errors = document["errors"].as_array().expect("errors");
@@ -70,6 +71,9 @@ fn a_campaign_of_a_new_folder_finds_the_errors() {
         let number = |key: &str| found[key].as_f64().unwrap_or_else(|| panic!("{key}: {found}"));
         let (value, expanded) = (number("value_urad"), number("U_urad"));
         assert!((value - 40.0).abs() < expanded && expanded < 40.0, "{kind}: {found}");
+        // What was found can be corrected: no axis stands at the end of its travel.
+        let words = ["compensate", "program", &measured, &at("part.nc"), "-o", &at("measured.nc")];
+        done(&words, 0);
     }
 }
 

@@ -206,7 +206,41 @@ const REQUESTS: &[(&str, &str)] = &[
         r#"{"study": "examples/03_predict/cone-on-i5.toml", "errors": {"EC0Y": {"add": "5 urad"}}}"#,
     ),
     ("plan", r#"{"campaign": "examples/04_plan/probe-ball.toml", "dialect": "fanuc"}"#),
+    ("measure-sheet", r#"{"campaign": "examples/04_plan/probe-ball.toml"}"#),
+    (
+        "measure-check",
+        r#"{"campaign": "examples/04_plan/probe-ball.toml", "instrument": "probe", "name": "typed.csv",
+            "text": "A,C,x_um,y_um,z_um\n90,0,1,2,3\n90,0,1,2,4\n"}"#,
+    ),
+    ("measure", r#"{"campaign": "examples/04_plan/probe-ball.toml", "seed": 7}"#),
     ("identify", r#"{"campaign": "examples/05_identify/probe-ball.toml"}"#),
+    (
+        "compensate-program",
+        r#"{"machine": "machines/xkas2525/machine.toml", "program": "examples/06_compensate/frustum.mpf"}"#,
+    ),
+    ("compensate-targets", r#"{}"#),
+    (
+        "compensate-tables",
+        r#"{"machine": "machines/three-axis-mill/machine.toml", "target": "linuxcnc"}"#,
+    ),
+    (
+        "compensate-values",
+        r#"{"machine": "machines/xkas2525/machine.toml", "axis": "C", "step": "30"}"#,
+    ),
+    ("compensate-adapt", r#"{"study": "examples/06_compensate/bangle-adapt.toml"}"#),
+    ("verify", r#"{"what": "readings", "file": "examples/07_verify/probe-ball.toml"}"#),
+    (
+        "verify",
+        r#"{"what": "diff", "file": "machines/xkas2525/machine.toml",
+            "new": "examples/07_verify/xkas2525-after-a-year.toml"}"#,
+    ),
+    (
+        "verify",
+        r#"{"what": "history", "file": "examples/07_verify/history", "limits": ["EC0X=40 urad"]}"#,
+    ),
+    ("verify", r#"{"what": "certificate", "file": "examples/07_verify/certificate.toml"}"#),
+    ("verify", r#"{"what": "laser", "file": "examples/07_verify/laser-before-after-x.toml"}"#),
+    ("verify", r#"{"what": "part", "file": "examples/07_verify/nas979-points.toml"}"#),
     ("live", r#"{"plan": "examples/08_live/gantry-mock.toml", "hours": 8}"#),
     ("standards", r#"{}"#),
     ("evaluate", r#"{"standard": "iso230-2", "path": "examples/07_verify/x-axis-laser.csv"}"#),
@@ -251,10 +285,17 @@ fn requests_and_answers_of_the_server_fit_their_schemas() {
         .iter()
         .flat_map(|(n, _)| [format!("serve-{n}"), format!("serve-{n}-request")])
         .collect();
-    let others =
-        ["serve-array", "serve-refused", "serve-save", "serve-save-request", "serve-socket"];
-    let others: BTreeSet<String> =
-        others.into_iter().chain(["serve-socket-request"]).map(str::to_owned).collect();
+    let others = [
+        "serve-array",
+        "serve-refused",
+        "serve-save",
+        "serve-save-made",
+        "serve-save-made-request",
+        "serve-save-request",
+        "serve-socket",
+        "serve-socket-request",
+    ];
+    let others: BTreeSet<String> = others.map(str::to_owned).into();
     assert_eq!(names(true), &asked | &others);
     let refused = served.ask("open", &json!({ "path": 7 }));
     fits("serve-refused", &refused.json());
@@ -274,6 +315,11 @@ fn saved_files_fit_their_schemas() {
     fits("serve-save", &served.ask("save", &body).json());
     let (_, news) = client::next(&mut other).expect("the other window hears of it");
     fits("serve-socket", &serde_json::from_slice(&news).expect("JSON"));
+    let body = json!({ "machine": "mill/machine.toml", "axis": "X" });
+    let made = served.ask("compensate-values", &body).json()["made"]["number"].clone();
+    let body = json!({ "made": made, "file": 0, "path": "mill/x.csv", "window": "a" });
+    fits("serve-save-made-request", &body);
+    fits("serve-save-made", &served.ask("save-made", &body).json());
 }
 
 #[test]

@@ -36,6 +36,59 @@ fn a_file_is_opened_and_saved_and_no_edit_of_another_window_is_lost() {
 }
 
 #[test]
+fn what_an_answer_made_is_saved_and_no_file_of_a_person_is_replaced() {
+    let served = serve(project("made"), &client::OPEN);
+    let body = json!({ "machine": "mill/machine.toml", "axis": "X" });
+    let answer = served.ask("compensate-values", &body).json();
+    let made = &answer["made"]["number"];
+    assert_eq!(answer["made"]["files"][0]["name"], "mill/values-X.csv");
+    let save = |path: &str| {
+        let answer = served.ask("save-made", &json!({ "made": made, "file": 0, "path": path }));
+        (answer.status, answer.json()["error"]["code"].as_str().unwrap_or("").to_owned())
+    };
+    let refused = |status, code: &str| (status, code.to_owned());
+    // Nothing was written before; what this program wrote may be replaced by it.
+    assert!(!served.folder.join("mill/values-X.csv").exists());
+    assert_eq!([save("mill/x.csv").0, save("mill/x.csv").0], [200, 200]);
+    let written = fs::read(served.folder.join("mill/x.csv")).expect("the file");
+    let download = served.send(&format!("GET /made/{made}/0"), "", b"");
+    assert_eq!((download.status, &download.body), (200, &written));
+    assert_eq!(served.send(&format!("GET /made/{made}/7"), "", b"").status, 404);
+    fs::write(served.folder.join("mill/mine.csv"), "mine\n").expect("a file of a person");
+    assert_eq!(save("mill/mine.csv"), refused(409, "conflict"));
+    fs::write(served.folder.join("mill/x.csv"), "edited\n").expect("an edit");
+    assert_eq!(save("mill/x.csv"), refused(409, "conflict"));
+    assert_eq!(save("mill/x.toml"), refused(403, "not-written"));
+    assert_eq!(save("../x.csv"), refused(403, "outside-project"));
+    // What it was made from has changed.
+    let machine = served.folder.join("mill/machine.toml");
+    let text = fs::read_to_string(&machine).expect("the machine") + "# edited\n";
+    fs::write(&machine, text).expect("an edit");
+    assert_eq!(save("mill/late.csv"), refused(409, "conflict"));
+    assert!(!served.folder.join("mill/late.csv").exists());
+    for name in ["mill/mine.csv", "mill/x.csv"] {
+        let there = fs::read_to_string(served.folder.join(name)).expect("the file");
+        assert!(["mine\n", "edited\n"].contains(&&*there), "{name}: {there}");
+    }
+}
+
+#[test]
+fn a_history_is_that_of_the_files_of_a_folder() {
+    let served = serve_kept(repository(), &client::OPEN);
+    let folder = "examples/07_verify/history";
+    let body = json!({ "what": "history", "file": folder, "limits": ["EC0X=40 urad"] });
+    let answer = served.ask("verify", &body).json();
+    let expected = cli(&["verify", "--history", folder, "--limit", "EC0X=40 urad"]);
+    assert_eq!(answer["document"], expected);
+    for (file, status) in [("examples", 422), ("../history", 403)] {
+        assert_eq!(
+            served.ask("verify", &json!({ "what": "history", "file": file })).status,
+            status
+        );
+    }
+}
+
+#[test]
 fn nothing_outside_the_folder_is_read_or_written() {
     let folder = project("outside");
     let secret = folder.with_extension("secret.toml");

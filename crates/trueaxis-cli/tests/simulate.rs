@@ -252,7 +252,7 @@ fn the_documents_have_their_keys() {
         "axes",
         "deviation",
         "troubles",
-        "troubles_left_out",
+        "troubles_found",
         "messages",
         "stops",
         "tools",

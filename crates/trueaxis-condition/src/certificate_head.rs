@@ -111,18 +111,21 @@ fn read_instrument(section: &Section<'_>, on: Option<Date>) -> Option<Instrument
 }
 
 impl CertificateHead {
-    /// What stands at the top of the certificate: lines, and the table of instruments.
-    pub fn shown(&self) -> (Vec<String>, Table) {
+    /// What is stated, under its name.
+    pub fn entries(&self) -> impl Iterator<Item = (&'static str, &str)> {
         let stated = [
-            ("certificate", Some(&self.number)),
+            ("number", Some(&self.number)),
             ("customer", self.customer.as_ref()),
             ("serial number of the machine", self.machine_serial.as_ref()),
             ("operator", self.operator.as_ref()),
             ("place", self.place.as_ref()),
             ("date", Some(&self.date)),
         ];
-        let lines =
-            stated.into_iter().filter_map(|(name, value)| Some(format!("{name}: {}", value?)));
+        stated.into_iter().filter_map(|(name, value)| Some((name, value?.as_str())))
+    }
+
+    /// The instruments with their certificates.
+    pub fn instrument_table(&self) -> Table {
         let dash = || "–".to_owned();
         let row = |i: &InstrumentUsed| {
             let validity = match i.is_valid {
@@ -140,7 +143,16 @@ impl CertificateHead {
             ]
         };
         let heads = ["instrument", "serial number", "certificate", "calibrated", "valid until", ""];
-        (lines.collect(), Table::new(heads).rows(self.instruments.iter().map(row)))
+        Table::new(heads).rows(self.instruments.iter().map(row))
+    }
+
+    /// What stands at the top of the certificate: lines, and the table of instruments.
+    pub fn shown(&self) -> (Vec<String>, Table) {
+        let line = |(name, value)| match name {
+            "number" => format!("certificate: {value}"),
+            _ => format!("{name}: {value}"),
+        };
+        (self.entries().map(line).collect(), self.instrument_table())
     }
 }
 

@@ -87,9 +87,12 @@ pub struct Issue {
     pub limit: f64,
     /// Nodes in it.
     pub nodes: u64,
+    /// How many stretches it holds: above 1 where there are so many of its kind that the nearest were put together. What lies
+    /// between them counts as part of it.
+    pub stretches: u64,
 }
 
-/// Kept of each kind; further ones are counted.
+/// Kept of each kind; where there are twice as many, the nearest are put together.
 const MOST: usize = 200;
 
 /// Stretches of an issue that costs only time are one if they are nearer than this.
@@ -104,10 +107,8 @@ const FLIP_RAD: f64 = std::f64::consts::FRAC_PI_2;
 /// Issues in their order; consecutive ones of a kind are one.
 #[derive(Debug, Default)]
 pub struct Log {
-    list: Vec<Issue>,
-    left_out: u64,
+    closed: BTreeMap<IssueKind, Vec<Issue>>,
     open: BTreeMap<IssueKind, Issue>,
-    kept: BTreeMap<IssueKind, usize>,
 }
 
 impl Log {
@@ -134,6 +135,7 @@ impl Log {
             value,
             limit,
             nodes: 0,
+            stretches: 1,
         });
         if (value - limit).abs() > (entry.value - entry.limit).abs() {
             (entry.value, entry.limit) = (value, limit);
@@ -157,12 +159,10 @@ impl Log {
     }
 
     fn keep(&mut self, issue: Issue) {
-        let count = self.kept.entry(issue.kind.clone()).or_default();
-        *count += 1;
-        if *count <= MOST {
-            self.list.push(issue);
-        } else {
-            self.left_out += 1;
+        let closed = self.closed.entry(issue.kind.clone()).or_default();
+        closed.push(issue);
+        if closed.len() >= 2 * MOST {
+            put_together(closed, MOST);
         }
     }
 
@@ -172,13 +172,54 @@ impl Log {
     }
 }
 
+/// Puts the nearest of one kind together until so many are left; none is lost.
+fn put_together(closed: &mut Vec<Issue>, most: usize) {
+    let gap = |pair: &[Issue]| pair[1].from_s - pair[0].to_s;
+    let mut gaps: Vec<f64> = closed.windows(2).map(gap).collect();
+    let joins = closed.len().saturating_sub(most);
+    if joins == 0 || joins > gaps.len() {
+        return;
+    }
+    let (below, widest, _) = gaps.select_nth_unstable_by(joins - 1, f64::total_cmp);
+    // Of gaps that are as wide as the widest to be closed, the first ones.
+    let widest = *widest;
+    let mut equal = joins - below.iter().filter(|gap| **gap < widest).count();
+    let mut kept: Vec<Issue> = Vec::with_capacity(most);
+    for issue in closed.drain(..) {
+        let Some(last) = kept.last_mut() else {
+            kept.push(issue);
+            continue;
+        };
+        let gap = issue.from_s - last.to_s;
+        if gap < widest {
+            last.join(&issue);
+        } else if gap == widest && equal > 0 {
+            equal -= 1;
+            last.join(&issue);
+        } else {
+            kept.push(issue);
+        }
+    }
+    *closed = kept;
+}
+
+impl Issue {
+    /// Takes a later one of its kind in.
+    fn join(&mut self, later: &Self) {
+        if (later.value - later.limit).abs() > (self.value - self.limit).abs() {
+            (self.value, self.limit) = (later.value, later.limit);
+        }
+        (self.last, self.to_s) = (later.last, later.to_s);
+        self.nodes += later.nodes;
+        self.stretches += later.stretches;
+    }
+}
+
 /// The issues of a whole run.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct IssueList {
     /// In the order of time.
     pub list: Vec<Issue>,
-    /// How many more there were than are kept.
-    pub left_out: u64,
 }
 
 impl IssueList {
@@ -187,11 +228,15 @@ impl IssueList {
         let mut all = Self::default();
         for mut log in logs {
             log.close_all();
-            all.list.append(&mut log.list);
-            all.left_out += log.left_out;
+            all.list.extend(log.closed.into_values().flatten());
         }
         all.list.sort_by(|a, b| a.from_s.total_cmp(&b.from_s));
         all
+    }
+
+    /// How many stretches there are in all.
+    pub fn found(&self) -> u64 {
+        self.list.iter().map(|t| t.stretches).sum()
     }
 
     /// Whether part or machine are in danger anywhere.
@@ -290,6 +335,54 @@ impl Observer for AxisWatch {
             }
             self.before = Some((node.command, axis));
             self.log.close(stamp.time_s);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Notes of one kind at whole seconds, each second a stretch of its own; what the log says of them.
+    fn logged(seconds: &[u32], worst_at: u32) -> Vec<Issue> {
+        let mut log = Log::default();
+        for s in seconds {
+            let at = (Origin { program: 0, line: *s }, f64::from(*s));
+            let value = if *s == worst_at { 9.0 } else { 2.0 };
+            log.note_at(IssueKind::OverTravel { axis: 0 }, at, value, 1.0);
+            log.close(f64::from(*s) + 0.5);
+        }
+        let list = IssueList::of([log]);
+        assert_eq!(list.found(), seconds.len() as u64);
+        list.list
+    }
+
+    /// Far more stretches than are kept: each of them lies in an entry, the worst too, and the widest gaps stay open.
+    #[test]
+    fn law_no_stretch_is_lost_however_many_there_are() {
+        let mut state = 7_u32;
+        let mut random = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            1 + (state >> 16) % 9
+        };
+        for count in [1, 2, MOST, 2 * MOST - 1, 2 * MOST, 50 * MOST + 3] {
+            let mut second = 0;
+            let mut seconds: Vec<u32> =
+                (0..count).map(|_| (second += random(), second).1).collect();
+            // A pause that no one may take for trouble.
+            seconds.iter_mut().skip(count / 2).for_each(|s| *s += 1_000_000);
+            let worst_at = seconds[count / 3];
+            let list = logged(&seconds, worst_at);
+            assert!(list.len() < 2 * MOST && list.len() >= count.min(MOST));
+            assert!(list.is_sorted_by(|a, b| a.to_s < b.from_s));
+            assert_eq!(list.iter().map(|t| t.nodes).sum::<u64>(), count as u64);
+            for s in &seconds {
+                let holds = |t: &&Issue| (t.from_s..=t.to_s).contains(&f64::from(*s));
+                let entry = list.iter().find(holds).unwrap_or_else(|| panic!("{s} of {count}"));
+                assert!(entry.first.line <= *s && *s <= entry.last.line);
+                assert!(*s != worst_at || entry.value == 9.0);
+            }
+            assert!(list.iter().all(|t| t.to_s - t.from_s < 900_000.0), "the pause is closed");
         }
     }
 }

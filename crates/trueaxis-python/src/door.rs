@@ -13,27 +13,30 @@ use trueaxis::files::output::{Guard, Output, no_file_twice};
 use trueaxis::files::{self, noted_disk};
 use trueaxis::input::{Diagnostics, Place};
 use trueaxis::questions::{Answer, Content, NewFile, Question, is_finite, may_put};
+use trueaxis_paper::ReportFile;
 
 /// What is read from memory, what is written, and whether what stands there is replaced.
 pub struct Door<'py> {
     py: Python<'py>,
     memory: Contents,
     report: Option<PathBuf>,
+    heading: Option<PathBuf>,
     force: bool,
 }
 
 /// Puts the question of a verb; `options` by the names of the command.
 #[pyfunction]
-#[pyo3(signature = (verb, options, memory, report, force))]
+#[pyo3(signature = (verb, options, memory, report, heading, force))]
 pub fn ask(
     py: Python<'_>,
     verb: &str,
     options: &Bound<'_, PyDict>,
     memory: Contents,
     report: Option<PathBuf>,
+    heading: Option<PathBuf>,
     force: bool,
 ) -> PyResult<NativeAnswer> {
-    let door = Door { py, memory, report, force };
+    let door = Door { py, memory, report, heading, force };
     verbs::ask(verb, &Options(options), &door)
 }
 
@@ -49,9 +52,14 @@ impl Door<'_> {
         Q: Question + Sync,
         Q::Answer: Send + 'static,
     {
-        let (memory, report, force) = (&self.memory, self.report.as_deref(), self.force);
-        let work = || computed(question, memory, report, force);
-        let (answer, mut problems, guard) = threads::work(self.py, None, work)?;
+        let asked = Asked {
+            memory: &self.memory,
+            report: self.report.as_deref(),
+            heading: self.heading.as_deref(),
+            force: self.force,
+        };
+        let work = || computed(question, &asked);
+        let Computed { answer, report, mut problems, guard } = threads::work(self.py, None, work)?;
         let Some(mut answer) = answer else { return Err(refused(self.py, &problems)) };
         let new = answer.files();
         let mut taken = Diagnostics::new();
@@ -61,8 +69,8 @@ impl Door<'_> {
         }
         let mut written = Vec::new();
         let done = self.py.detach(|| {
-            if let Some(path) = report {
-                write_report(path, &answer, &mut problems)?;
+            if let Some(file) = &report {
+                write_report(file, &answer, &mut problems)?;
             }
             new.into_iter().try_for_each(|file| write(file, &mut written, &mut problems))?;
             Some(Box::new(answer) as Held)
@@ -73,23 +81,36 @@ impl Door<'_> {
     }
 }
 
-/// Reads, checks the outputs, computes.
-fn computed<Q: Question>(
-    question: &Q,
-    memory: &Contents,
-    report: Option<&Path>,
+/// What is read from memory, and what is written.
+struct Asked<'a> {
+    memory: &'a Contents,
+    report: Option<&'a Path>,
+    heading: Option<&'a Path>,
     force: bool,
-) -> (Option<Q::Answer>, Diagnostics, Guard) {
+}
+
+/// The answer, if there is one, and what is needed to write its files.
+struct Computed<A> {
+    answer: Option<A>,
+    report: Option<ReportFile>,
+    problems: Diagnostics,
+    guard: Guard,
+}
+
+/// Reads, checks the outputs, computes.
+fn computed<Q: Question>(question: &Q, asked: &Asked<'_>) -> Computed<Q::Answer> {
     let mut problems = Diagnostics::new();
     let (disk, read) = noted_disk();
-    let files = match memory.is_empty() {
+    let files = match asked.memory.is_empty() {
         true => disk,
-        false => with_contents(memory.clone(), disk).0,
+        false => with_contents(asked.memory.clone(), disk).0,
     };
     let input = question.read(&files, &mut problems);
-    let guard = Guard { read, force };
-    let report_file = report.map(|path| Output::file("--report", path));
-    let outputs: Vec<_> = question.outputs(input.as_ref()).into_iter().chain(report_file).collect();
+    let report = ReportFile::read(asked.report, asked.heading, &files, &mut problems);
+    let guard = Guard { read, force: asked.force };
+    let report_output = report.as_ref().map(|file| Output::file("--report", file.path()));
+    let outputs: Vec<_> =
+        question.outputs(input.as_ref()).into_iter().chain(report_output).collect();
     outputs.iter().for_each(|output| guard.may_write(output, &mut problems));
     let paths: Vec<&Path> = outputs.iter().map(|output| output.path.as_path()).collect();
     no_file_twice(&paths, &mut problems);
@@ -100,19 +121,19 @@ fn computed<Q: Question>(
     let answer = answer.filter(|answer| is_finite(answer, &mut problems));
     let usable =
         |answer: &Q::Answer| !problems.has_errors() || answer.in_spite_of_errors().is_some();
-    (answer.filter(usable), problems, guard)
+    Computed { answer: answer.filter(usable), report, problems, guard }
 }
 
-fn write_report(path: &Path, answer: &impl Answer, problems: &mut Diagnostics) -> Option<()> {
-    let place = Place::whole(&path.display().to_string());
-    let page = match answer.page() {
-        Ok(page) => page,
+fn write_report(file: &ReportFile, answer: &impl Answer, problems: &mut Diagnostics) -> Option<()> {
+    let place = Place::whole(&file.path().display().to_string());
+    let bytes = match file.print(answer.report(), problems) {
+        Ok(bytes) => bytes,
         Err(error) => {
             problems.error("no-report", place, error.to_string(), "leave out `report`");
             return None;
         }
     };
-    if let Err(error) = files::write_in_folder(path, page.as_bytes()) {
+    if let Err(error) = files::write_in_folder(file.path(), &bytes) {
         let message = format!("cannot be written: {error}");
         let hint = "name another `report`, or leave it out";
         problems.error("unwritable-file", place, message, hint);

@@ -232,8 +232,8 @@ WORDS = {
 }
 #: Not for Python: how the command prints.
 COMMAND_ONLY = {"help", "no-report", "show-template"}
-#: Whether pictures are recorded; a report and a format everywhere or where a file is written.
-PYTHON_ONLY = {"pictures", "format", "report"}
+#: Whether pictures are recorded; a report with its heading and a format everywhere or where a file is written.
+PYTHON_ONLY = {"pictures", "format", "report", "heading"}
 
 
 def test_every_function_is_known():

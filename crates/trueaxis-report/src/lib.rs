@@ -26,7 +26,10 @@ pub use document::{Keyed, NamedSchema, document, named_schema, not_finite};
 pub use finite::first_not_finite;
 pub use pictures::{Band, Picture, Polar, PolarLine, Scatter};
 pub use plots::DrawingError;
-pub use report::{Columns, Figure, Item, Place, Report, Row, Section, Standing, Table, Verdict};
+pub use report::{
+    Columns, Figure, Heading, Item, Logo, LogoKind, Place, Report, Row, Section, Standing, Table,
+    Verdict,
+};
 
 /// The version that reports state.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -54,6 +54,10 @@ pre { overflow-x:auto; font-size:.85rem; }
 figure { margin:0; } figcaption { color:var(--soft); font-size:.9rem; padding-top:4px; }
 table.words th, table.words td { text-align:left; vertical-align:top; }
 table.words td:first-child { white-space:nowrap; }
+img.logo { float:right; height:56px; max-width:30%; }
+.signatures { display:grid; grid-template-columns:repeat(auto-fit, minmax(220px, 1fr)); gap:48px 24px; margin-top:72px; }
+.signatures div { border-top:1px solid var(--ink); padding-top:4px; color:var(--soft); font-size:.9rem; break-inside:avoid; }
+@page { size:A4; margin:16mm 14mm 18mm; @bottom-right { content:'page ' counter(page) ' of ' counter(pages); } }
 @media print { html, body { font-size:12px; background:#fff; } main { padding:0; }
   section { break-inside:avoid; border:none; padding:6px 0; margin:8px 0; }
   section.verdict { border-left:8px solid; padding:6px 16px; }

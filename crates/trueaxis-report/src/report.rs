@@ -13,11 +13,13 @@
 //! assert!(report.html().unwrap().contains("<h2>Figures</h2>"));
 //! ```
 
+mod heading;
 mod html;
 mod section;
 mod table;
 mod text;
 
+pub use heading::{Heading, Logo, LogoKind};
 pub use section::{Columns, Figure, Item, Place, Section};
 pub use table::{Row, Table};
 
@@ -50,6 +52,10 @@ pub struct Verdict {
 pub struct Report<'a> {
     /// Above all.
     pub title: String,
+    /// Below the title on paper: number, customer, instruments; the lines for signatures at the end.
+    pub heading: Option<Heading>,
+    /// When it was made, such as `2026-11-28`; may be empty.
+    pub date: String,
     /// Under the title: the subject of the report.
     pub lines: Vec<String>,
     /// The result, if there is one.
@@ -98,7 +104,18 @@ impl<'a> Report<'a> {
         self
     }
 
-    /// As the terminal shows it: without pictures, tables cut to the rows that one can read.
+    /// The sections that have something to show on a page.
+    pub fn on_page(&self) -> impl Iterator<Item = &Section<'a>> {
+        self.sections.iter().filter(|section| section.shows(false))
+    }
+
+    /// Who made it, for the foot of a page.
+    pub fn made_by(&self) -> String {
+        let on = if self.date.is_empty() { "" } else { " on " };
+        format!("made by trueaxis {}{on}{}", crate::VERSION, self.date)
+    }
+
+    /// As the terminal shows it: without heading and pictures, tables cut to the rows that one can read.
     pub fn text(&self) -> String {
         text::text(self)
     }

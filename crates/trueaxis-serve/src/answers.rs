@@ -1,17 +1,22 @@
 //! The requests by name: one file for each tab of the page.
 
+mod compensate;
 mod describe;
 mod evaluate;
 mod identify;
 mod live;
 mod machine;
+mod measure;
 mod plan;
 mod predict;
 mod project;
 mod report;
 mod settings;
+mod shown;
 mod simulate;
 mod simulate_document;
+mod trace;
+mod verify;
 
 use crate::request::{Pace, Question, Request, request_schema, work};
 use trueaxis::report::named_schema;
@@ -35,6 +40,7 @@ pub(crate) const QUESTIONS: &[Question] = questions! {
     Quick "project" => project::ProjectRequest,
     Quick "open" => project::OpenRequest,
     Quick "save" => project::SaveRequest,
+    Quick "save-made" => project::SaveMadeRequest,
     Quick "describe" => describe::DescribeRequest,
     Quick "models" => describe::ModelsRequest,
     Quick "pose" => describe::PoseRequest,
@@ -42,12 +48,22 @@ pub(crate) const QUESTIONS: &[Question] = questions! {
     Long "predict" => predict::PredictRequest,
     Quick "what-if" => predict::WhatIfRequest,
     Long "plan" => plan::PlanRequest,
+    Long "measure-sheet" => measure::MeasureSheetRequest,
+    Quick "measure-check" => measure::MeasureCheckRequest,
+    Long "measure" => measure::MeasureRequest,
     Long "identify" => identify::IdentifyRequest,
+    Long "compensate-program" => compensate::CompensateProgramRequest,
+    Quick "compensate-targets" => compensate::TargetsRequest,
+    Long "compensate-tables" => compensate::CompensateTablesRequest,
+    Long "compensate-values" => compensate::CompensateValuesRequest,
+    Long "compensate-adapt" => compensate::CompensateAdaptRequest,
+    Long "verify" => verify::VerifyRequest,
     Quick "live" => live::LiveRequest,
     Quick "standards" => evaluate::StandardsRequest,
     Quick "evaluate" => evaluate::EvaluateRequest,
     Long "report" => report::ReportRequest,
     Long "simulate" => simulate_document::SimulateRequest,
+    Long "trace" => trace::TraceRequest,
     Quick "simulation-at" => simulate_document::SimulationAtRequest,
     Quick "simulation-block" => simulate_document::SimulationBlockRequest,
     Quick "simulation-path" => simulate_document::SimulationPathRequest,

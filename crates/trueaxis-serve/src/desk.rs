@@ -2,6 +2,7 @@
 
 use crate::change::ChangeEntry;
 use crate::kept::Kept;
+use crate::made::Made;
 use crate::project::Project;
 use crate::simulated::Simulated;
 use crate::turn::Turns;
@@ -66,6 +67,7 @@ pub(crate) struct Desk {
     pub(crate) project: Project,
     pub(crate) simulations: Kept<Simulated>,
     pub(crate) reports: Kept<String>,
+    pub(crate) made: Kept<Made>,
     /// One file is saved at a time: between looking at its version and replacing it.
     pub(crate) saving: Mutex<()>,
     /// Files that were saved, for the other windows.
@@ -80,6 +82,7 @@ impl Desk {
             project,
             simulations: Kept::of(4),
             reports: Kept::of(16),
+            made: Kept::of(8),
             saving: Mutex::default(),
             changed: broadcast::channel(64).0,
             quick: Turns::of(QUICK_AT_A_TIME),

@@ -33,6 +33,7 @@ mod desk;
 mod frame;
 mod guard;
 mod kept;
+mod made;
 mod page;
 mod places;
 mod project;

@@ -57,6 +57,14 @@ pub(crate) enum FileKind {
     Cl,
     /// The plan of a live run.
     Live,
+    /// Readings compared with a machine file.
+    Comparison,
+    /// The certificate of a compensation.
+    Certificate,
+    /// A test piece that was measured.
+    Measured,
+    /// A path on a measured blank.
+    Blank,
     /// Another TOML file.
     Other,
 }
@@ -133,6 +141,31 @@ impl Project {
                 Err(Refusal::new(403, "not-written", message, "TOML and CSV files only"))
             }
         }
+    }
+
+    /// The files with these endings in a folder of the project, by name; a file as it is named.
+    pub(crate) fn in_folder(&self, name: &str, endings: &[&str]) -> Result<Vec<PathBuf>, Refusal> {
+        let path = self.path(name)?;
+        let inside = path.canonicalize().is_ok_and(|whole| whole.starts_with(&self.root));
+        let Some(entries) = fs::read_dir(&path).ok().filter(|_| inside) else {
+            return Ok(vec![path]);
+        };
+        let is_file = |entry: &fs::DirEntry| entry.file_type().is_ok_and(|kind| kind.is_file());
+        let files = entries.flatten().filter(is_file).map(|entry| path.join(entry.file_name()));
+        let is_one = |p: &PathBuf| p.extension().is_some_and(|e| endings.iter().any(|x| e == *x));
+        let mut found: Vec<PathBuf> = files.filter(is_one).collect();
+        found.sort();
+        Ok(found)
+    }
+
+    /// The name of a folder beside a machine file that is not there, for files that a command would write.
+    pub(crate) fn new_folder(&self, machine: &str, target: &str) -> PathBuf {
+        let machine = Path::new(machine);
+        let above = machine.parent().and_then(Path::file_name).or(machine.file_stem());
+        let name = format!("{}-{target}", above.unwrap_or_default().to_string_lossy());
+        let numbered = |n: usize| if n == 1 { name.clone() } else { format!("{name}-{n}") };
+        let free = (1..).map(numbered).find(|name| !self.root.join(name).exists());
+        PathBuf::from(free.unwrap_or(name))
     }
 
     /// The name of a file of the project that the library calls by any path; none if it lies outside.
@@ -235,8 +268,14 @@ fn kind_of_toml(name: &str, text: &str) -> FileKind {
     match () {
         () if name.ends_with(".setup.toml") => FileKind::Setup,
         () if begins(&["[machine]"]) => FileKind::Machine,
+        // Before studies: it names a test piece, too.
+        () if begins(&["[cmm]", "[measured]"]) => FileKind::Measured,
         () if begins(&["test_piece", "[holes]"]) => FileKind::Study,
         () if begins(&["[instrument.", "[[path]]"]) => FileKind::Campaign,
+        // After studies, which may compare with a paper.
+        () if begins(&["[compare]"]) => FileKind::Comparison,
+        () if begins(&["[determination]"]) => FileKind::Certificate,
+        () if begins(&["[layer]"]) && begins(&["[wall]"]) => FileKind::Blank,
         () if begins(&["[correction]"]) && begins(&["[control]"]) => FileKind::Live,
         // A part that is cut: after the plan of a live run, which has a `part` of its own.
         () if begins(&["part ="]) && begins(&["program ="]) => FileKind::Study,

@@ -1,4 +1,4 @@
-//! The ways in: the page, requests by POST, the socket, reports.
+//! The ways in: the page, requests by POST, the socket, reports, files that were made.
 
 use crate::desk::{Desk, Job};
 use crate::guard::{Guard, add_headers};
@@ -38,6 +38,7 @@ pub(crate) fn router(desk: Desk, guard: Guard) -> Router {
         .route("/api/socket", get(open_socket))
         .route("/api/{name}", post(ask))
         .route("/report/{number}", get(report))
+        .route("/made/{number}/{file}", get(made))
         .fallback(get(file))
         .layer(from_fn_with_state(shared.clone(), guarded))
         .with_state(shared)
@@ -158,6 +159,20 @@ async fn report(State(shared): State<Shared>, Path(number): Path<u64>) -> Respon
             let message = "this report is not kept any more";
             refused(&Refusal::new(404, "no-report", message, "make it again"))
         }
+    }
+}
+
+/// A file that an answer made, as it would be written.
+async fn made(State(shared): State<Shared>, Path((number, file)): Path<(u64, usize)>) -> Response {
+    match shared.desk.made_file(number, file, |_, file| file.content.clone()) {
+        Ok(content) => {
+            let kind = [
+                (header::CONTENT_TYPE, "application/octet-stream"),
+                (header::CONTENT_DISPOSITION, "attachment"),
+            ];
+            (kind, content).into_response()
+        }
+        Err(refusal) => refused(&refusal),
     }
 }
 

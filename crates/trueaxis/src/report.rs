@@ -59,13 +59,14 @@ pub use trace::{TraceReport, trace_report};
 pub use trace_document::TraceDocument;
 
 pub use trueaxis_calibrate::report::*;
+pub use trueaxis_condition::history_report::HistoryDocument;
 pub use trueaxis_correct::report::*;
 pub use trueaxis_measure::report::*;
 pub use trueaxis_motion::report::*;
 pub use trueaxis_predict::report::*;
 pub use trueaxis_report::{
-    Band, DrawingError, Keyed, Picture, Polar, PolarLine, Scatter, Table, document, named_schema,
-    numbers,
+    Band, DrawingError, Item, Keyed, Picture, Polar, PolarLine, Report, Scatter, Section, Standing,
+    Table, document, named_schema, numbers,
 };
 pub use trueaxis_rtcp::report::*;
 pub use trueaxis_standards::report::*;

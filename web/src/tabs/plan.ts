@@ -194,8 +194,19 @@ class PlanTab implements TabHandle {
         { class: "row" },
         h("label", { class: "field grow" }, h("span", {}, "Campaign"), campaigns),
         this.open_file,
+        this.measureButton(),
         reportButton(this.app, { verb: "plan", file: this.campaign }),
       ),
+    );
+  }
+
+  private measureButton(): HTMLElement | null {
+    const { campaign } = this;
+    if (!campaign) return null;
+    return h(
+      "button",
+      { title: "Type the readings, station by station", onclick: () => this.app.go("measure", { campaign }) },
+      "Measure",
     );
   }
 

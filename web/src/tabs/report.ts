@@ -20,7 +20,12 @@ const VERBS: readonly Verb[] = [
   { name: "plan", title: "Plan: what a campaign will show", file: ["campaign"], needs_machine: false },
   { name: "identify", title: "Identify: the machine from readings", file: ["campaign"], needs_machine: false },
   { name: "evaluate", title: "Evaluate: readings by ISO 230", file: ["readings"], needs_machine: false },
-  { name: "verify", title: "Verify: readings against the machine file", file: ["other"], needs_machine: false },
+  { name: "verify", title: "Verify: readings against the machine file", file: ["comparison"], needs_machine: false },
+  { name: "diff", title: "Verify: a calibration against an older one", file: ["machine"], needs_machine: true },
+  { name: "history", title: "Verify: the history of a folder", file: [], needs_machine: false },
+  { name: "certificate", title: "Verify: certificate of a compensation", file: ["certificate"], needs_machine: false },
+  { name: "laser", title: "Verify: a laser before and after", file: ["campaign"], needs_machine: false },
+  { name: "part", title: "Verify: a measured part", file: ["measured"], needs_machine: false },
 ];
 
 type Made = ServeReport;

@@ -16,11 +16,13 @@ import { Find } from "./simulate/find.ts";
 import { ToolPath } from "./simulate/path.ts";
 import { Player } from "./simulate/player.ts";
 import { Readout } from "./simulate/readout.ts";
+import { SetUpDialog } from "./simulate/setup.ts";
 import { SourceList, type LineNote } from "./simulate/source.ts";
 import { Summary } from "./simulate/summary.ts";
 import { Timeline } from "./simulate/timeline.ts";
 import { toolNote, toolOf } from "./simulate/tool.ts";
 import { Transport } from "./simulate/transport.ts";
+import { WhyHere } from "./simulate/whyhere.ts";
 import { takeDropped } from "./start.ts";
 
 class SimulateTab implements TabHandle {
@@ -28,7 +30,11 @@ class SimulateTab implements TabHandle {
   private readonly host: HTMLElement;
   private readonly view: MachineView;
   private readonly choices: Choices;
-  private readonly summary = new Summary((time_s) => this.player.seek(time_s));
+  private readonly setup: SetUpDialog;
+  private readonly summary = new Summary(
+    (time_s) => this.player.seek(time_s),
+    () => this.stateSetUp(),
+  );
   private readonly busy = h("section", { class: "panel simulate-busy", hidden: true });
   private readonly source_head = h("div", { class: "panel-head source-head" });
   private readonly source = new SourceList((line) => this.toLine(line));
@@ -37,7 +43,8 @@ class SimulateTab implements TabHandle {
     go: (line) => this.toLine(line),
     closed: () => this.source.focus(),
   });
-  private readonly readout = new Readout();
+  private readonly readout = new Readout(() => this.whyHere());
+  private readonly why: WhyHere;
   private readonly player: Player;
   private readonly transport: Transport;
   private readonly timeline: Timeline;
@@ -90,7 +97,13 @@ class SimulateTab implements TabHandle {
       chosen: () => this.keepState(),
       failed: (e) => this.failed(e),
     });
-    this.choices = new Choices(app, (choice, dropped) => this.go(choice, dropped));
+    this.choices = new Choices(
+      app,
+      (choice, dropped) => this.go(choice, dropped),
+      () => this.stateSetUp(),
+    );
+    this.why = new WhyHere(app);
+    this.setup = new SetUpDialog(app, (path) => this.setUpSaved(path));
     left.append(h("div", { class: "scene-bottom" }, this.path.control, this.exaggeration.element));
     right.classList.add("simulate-side");
     fill(
@@ -106,6 +119,7 @@ class SimulateTab implements TabHandle {
         this.source.element,
       ),
       this.readout.element,
+      this.why.element,
     );
     fill(
       host,
@@ -116,6 +130,7 @@ class SimulateTab implements TabHandle {
         h("div", { class: "simulate-time" }, this.transport.element, this.timeline.element),
         this.curves.element,
       ),
+      this.setup.element,
     );
     dropTarget(host, (file) => void this.choices.take(file));
     document.addEventListener("keydown", (event) => {
@@ -209,6 +224,30 @@ class SimulateTab implements TabHandle {
     return { machine, program: what, keep_going, ...(setup ? { setup } : {}), ...(control ? { control } : {}) };
   }
 
+  // ---- the set-up ----
+
+  private stateSetUp(): void {
+    const { program, setup, control } = this.choice;
+    const dropped = this.dropped;
+    if (!program || dropped) {
+      const message = dropped
+        ? `${dropped.name} is in no folder, so no set-up can stand beside it`
+        : "no program is chosen";
+      this.app.fail(new Refusal("set-up", message, "Put the program into the project folder and choose it there."));
+      return;
+    }
+    const header = this.simulation?.header;
+    const used = header?.document.tools.map((tool) => tool.tool).filter((number) => number > 0) ?? [];
+    const axes = header?.axes ?? this.drawn?.links.flatMap(axisOf) ?? [];
+    void this.setup.open({ program, setup, control, axes, tools: used });
+  }
+
+  private setUpSaved(path: string): void {
+    this.app.say(`${path} was saved`);
+    this.choices.show(this.choice, this.dropped);
+    void this.run();
+  }
+
   // ---- the simulation ----
 
   private async run(keep_going = false): Promise<void> {
@@ -251,6 +290,7 @@ class SimulateTab implements TabHandle {
     this.view.overlay.note("tool", null);
     this.summary.clear();
     this.readout.clear();
+    this.why.clear();
     this.curves.clear();
     this.path.setSimulation(null);
     this.timeline.setProgram(0, []);
@@ -473,6 +513,21 @@ class SimulateTab implements TabHandle {
     );
   }
 
+  /** What makes the deviation at the present block. */
+  private whyHere(): void {
+    const { moment, simulation } = this;
+    const { machine, program, setup, control } = this.choice;
+    if (!machine || !simulation || !moment) return;
+    if (moment.line < 1 || moment.program !== 0) {
+      const message = moment.line < 1 ? "no block runs at this moment" : "this block is in a subprogram";
+      this.app.fail(new Refusal("why-here", message, "Choose a block of the main program."));
+      return;
+    }
+    const what = this.dropped ? { name: this.dropped.name, text: this.dropped.text } : { program };
+    const asked = { machine, ...what, ...(setup ? { setup } : {}), ...(control ? { control } : {}) };
+    void this.why.show(asked, moment.line, simulation.header.marks);
+  }
+
   /** The tool of the set-up in place of that of the machine file. */
   private showTool(moment: Moment, nominal: Float64Array): void {
     const { drawn, simulation } = this;
@@ -491,6 +546,10 @@ class SimulateTab implements TabHandle {
     this.path.setWindow(window_s);
   }
 }
+
+/** An axis as a set-up states it. */
+const axisOf = ({ name, kind }: MachineDescription["links"][number]): { name: string; unit: "mm" | "deg" }[] =>
+  kind === "linear" || kind === "rotary" ? [{ name, unit: kind === "rotary" ? "deg" : "mm" }] : [];
 
 /** Programs are named with or without their folder. */
 function ofFile(d: Diagnostic, name: string): boolean {

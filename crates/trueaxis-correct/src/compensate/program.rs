@@ -40,6 +40,7 @@ pub use verify::{BlockResidual, Largest, Proof, Residual};
 
 use ahead::{Gather, Stretch};
 use line_table::LineTable;
+use std::ops::Range;
 use std::sync::mpsc::Receiver;
 use trueaxis_input::{Diagnostic, Diagnostics, Place};
 use trueaxis_machine::Machine;
@@ -504,6 +505,15 @@ impl Rewritten {
         let axis = if is_free { 0.0 } else { after.axis.value / turned };
         let share = (after.tip.value / tip_mm).max(axis);
         if after.tip.value.is_nan() || after.axis.value.is_nan() { f64::INFINITY } else { share }
+    }
+
+    /// The lines of the written program that a line of the program as it was became, counted from 1; the last one has
+    /// no end. What stands before the block of the next line counts to it. Those of a program that was unrolled are
+    /// lines of the unrolled one.
+    pub fn lines_of(&self, line: u32) -> Option<Range<u32>> {
+        let first = |line: u32| self.numbers.get(line as usize).copied();
+        let before = line.checked_sub(1)?;
+        Some(first(before)?..first(line).unwrap_or(u32::MAX))
     }
 
     /// Whether the written program was proved: only then it may go to the machine.

@@ -112,6 +112,10 @@ pub struct ResidualEntry {
     pub tip_between_um: LineValue,
     /// Of the tool axis between the ends, µrad.
     pub axis_between_urad: LineValue,
+    /// Root mean square of the tip over the ends of blocks, µm.
+    pub tip_at_ends_rms_um: f64,
+    /// Of the tool axis over the ends of blocks, µrad.
+    pub axis_at_ends_rms_urad: f64,
 }
 
 /// A value and the line of the program where it occurs.
@@ -253,6 +257,8 @@ impl From<&Residual> for ResidualEntry {
             axis_at_ends_urad: value(of.axis_end, 1e6),
             tip_between_um: value(of.tip, 1e3),
             axis_between_urad: value(of.axis, 1e6),
+            tip_at_ends_rms_um: of.tip_end_rms_mm * 1e3,
+            axis_at_ends_rms_urad: of.axis_end_rms_rad * 1e6,
         }
     }
 }

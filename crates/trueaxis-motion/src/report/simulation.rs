@@ -198,10 +198,11 @@ pub fn simulation_report<'a>(s: Simulation<'a>, series: Option<&'a Series>) -> R
         .section(input_section(&s))
 }
 
-fn verdict(s: &Simulation<'_>) -> (Standing, &'static str, String) {
+/// The result in a word and a sentence, the same for text, page and document.
+pub(super) fn verdict(s: &Simulation<'_>) -> (Standing, &'static str, String) {
     let count = |n: u64, noun: &str| format!("{n} {noun}{}", if n == 1 { "" } else { "s" });
-    let critical = s.issues.list.iter().filter(|t| t.critical).count() as u64;
-    let all = s.issues.list.len() as u64 + s.issues.left_out;
+    let critical = s.issues.list.iter().filter(|t| t.critical).map(|t| t.stretches).sum::<u64>();
+    let all = s.issues.found();
     let errors = s.run.problems.iter().filter(|d| d.severity == Severity::Error).count() as u64;
     let left_out = s.run.motion_left_out().count() as u64;
     let beyond = s.run.beyond_equipment().count() as u64;
@@ -229,6 +230,14 @@ fn verdict(s: &Simulation<'_>) -> (Standing, &'static str, String) {
             let sentence =
                 format!("{} found, without danger for part and machine", count(slow, "issue"));
             (Standing::Open, "SLOWER", sentence)
+        }
+        (critical, _) if !s.setup.given => {
+            let issues = count(critical, "critical issue");
+            let sentence = format!(
+                "work offsets and tool lengths count as 0, and {issues} found with that may not be those \
+                 of the shop: state the set-up first"
+            );
+            (Standing::Open, "NO SET-UP", sentence)
         }
         (critical, slow) => {
             let also = if slow > 0 { format!(", and {slow} more") } else { String::new() };
@@ -430,12 +439,18 @@ fn temperature_section(s: &Simulation<'_>) -> Option<Section<'static>> {
 
 /// A row of a table of issues.
 fn issue_row(s: &Simulation<'_>, t: &Issue, also: &str) -> [String; 5] {
+    let together = match t.stretches {
+        n if n > 1 && also.is_empty() => {
+            format!(" ({n} stretches put together, the worst of them)")
+        }
+        _ => String::new(),
+    };
     [
         if t.critical { "critical" } else { "time" }.to_owned(),
         s.blocks(t),
         clock(t.from_s),
         clock(t.to_s - t.from_s),
-        issue_text(s.machine, t) + also,
+        issue_text(s.machine, t) + also + &together,
     ]
 }
 
@@ -463,8 +478,7 @@ fn issue_section(s: &Simulation<'_>) -> Section<'static> {
         };
         issues.push(issue_row(s, worst, &also));
     }
-    let unlisted = [critical().count(), minor.len()].map(|n| n.saturating_sub(MOST_ROWS) as u64);
-    let left_out = s.issues.left_out + unlisted.iter().sum::<u64>();
+    let left_out = critical().skip(MOST_ROWS).map(|t| t.stretches).sum::<u64>();
     let section = Section::new("Issues");
     match (issues.rows.is_empty(), left_out) {
         (true, _) => section.paragraph("None found."),
@@ -480,22 +494,26 @@ fn minor_section(s: &Simulation<'_>) -> Section<'static> {
     if minor_kinds(&minor).len() == minor.len() {
         return section;
     }
-    section.table(issue_table().rows(minor.iter().take(MOST_ROWS).map(|t| issue_row(s, t, ""))))
+    let table = issue_table().rows(minor.iter().take(MOST_ROWS).map(|t| issue_row(s, t, "")));
+    section.table(match minor.len().saturating_sub(MOST_ROWS) {
+        0 => table,
+        more => table.note(format!("… and {more} more rows: `--format json` has them all.")),
+    })
 }
 
-/// The worst issue of each kind and how many of them there are, the worst first.
-fn minor_kinds<'t>(minor: &[&'t Issue]) -> Vec<(&'t Issue, usize)> {
+/// The worst issue of each kind and how many stretches of it there are, the worst first.
+fn minor_kinds<'t>(minor: &[&'t Issue]) -> Vec<(&'t Issue, u64)> {
     let badness = |t: &Issue| (t.value - t.limit).abs();
-    let mut kinds: Vec<(&Issue, usize)> = Vec::new();
+    let mut kinds: Vec<(&Issue, u64)> = Vec::new();
     for issue in minor {
         match kinds.iter_mut().find(|(other, _)| other.kind == issue.kind) {
             Some((worst, count)) => {
-                *count += 1;
+                *count += issue.stretches;
                 if badness(issue) >= badness(worst) {
                     *worst = issue;
                 }
             }
-            None => kinds.push((issue, 1)),
+            None => kinds.push((issue, issue.stretches)),
         }
     }
     kinds.sort_by(|a, b| badness(b.0).total_cmp(&badness(a.0)));

@@ -1,12 +1,12 @@
 //! A simulation for programs: the document `trueaxis/simulate/1`.
 
-use super::simulation::{Simulation, control_name, issue_code, issue_text};
+use super::simulation::{Simulation, control_name, issue_code, issue_text, verdict};
 use super::stock::StockEntry;
 use super::tool_states::ToolStateEntry;
 use crate::{AxisUse, Drift, Issue, IssueKind, Reversal, Worst, shown, tool_standings, unit};
 use schemars::JsonSchema;
 use serde::Serialize;
-use trueaxis_report::Keyed;
+use trueaxis_report::{Keyed, Standing};
 
 /// A simulation of a program on a machine: `trueaxis/simulate/1`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -26,6 +26,8 @@ pub struct SimulationDocument<'a> {
     pub control: &'static str,
     /// Whether a set-up was given; without one work offsets and tool lengths are 0.
     pub set_up_given: bool,
+    /// The result.
+    pub verdict: VerdictEntry,
     /// The whole time, s.
     pub time_s: f64,
     /// Time of rapid moves, s.
@@ -52,9 +54,9 @@ pub struct SimulationDocument<'a> {
     /// The issues that were found.
     #[serde(rename = "troubles")]
     pub issues: Vec<IssueEntry<'a>>,
-    /// How many more of the same kinds were found, but not listed.
-    #[serde(rename = "troubles_left_out")]
-    pub issues_left_out: u64,
+    /// How many stretches of issues there are in all: the sum of `stretches`.
+    #[serde(rename = "troubles_found")]
+    pub issues_found: u64,
     /// How many functions of the program that move the tool or its place are not executed: they are among the
     /// diagnostics.
     pub motion_left_out: u64,
@@ -155,6 +157,30 @@ pub struct ReversalEntry {
     pub time_s: f64,
 }
 
+/// The result in a word and a sentence.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct VerdictEntry {
+    /// `good`: nothing endangers part or machine and no time is lost; `bad`; `open`: neither.
+    #[schemars(extend("enum" = ["good", "bad", "open"]))]
+    pub standing: &'static str,
+    /// Such as `CRITICAL`.
+    pub word: &'static str,
+    /// What that means.
+    pub sentence: String,
+}
+
+impl VerdictEntry {
+    fn of(s: &Simulation<'_>) -> Self {
+        let (standing, word, sentence) = verdict(s);
+        let standing = match standing {
+            Standing::Good => "good",
+            Standing::Bad => "bad",
+            Standing::Open => "open",
+        };
+        Self { standing, word, sentence }
+    }
+}
+
 /// An issue over a stretch of the path.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct IssueEntry<'a> {
@@ -177,6 +203,8 @@ pub struct IssueEntry<'a> {
     pub to_s: f64,
     /// How many points of the path are in it.
     pub nodes: u64,
+    /// How many stretches it holds: above 1 where there are so many of its kind that the nearest were put together.
+    pub stretches: u64,
     /// Its values.
     #[serde(flatten)]
     pub values: IssueValues<'a>,
@@ -299,6 +327,7 @@ impl<'a> SimulationDocument<'a> {
             programs: &s.run.programs,
             control: control_name(s.control),
             set_up_given: s.setup.given,
+            verdict: VerdictEntry::of(s),
             time_s: summary.time_s,
             rapid_s: summary.rapid_s,
             dwell_s: summary.dwell_s,
@@ -311,7 +340,7 @@ impl<'a> SimulationDocument<'a> {
             deviation: DeviationEntry::of(s),
             reversals: summary.reversals.iter().map(|r| ReversalEntry::of(s, r)).collect(),
             issues: s.issues.list.iter().map(|t| IssueEntry::of(s, t)).collect(),
-            issues_left_out: s.issues.left_out,
+            issues_found: s.issues.found(),
             motion_left_out: s.run.motion_left_out().count() as u64,
             beyond_equipment: s.run.beyond_equipment().count() as u64,
             messages: &summary.messages,
@@ -392,6 +421,7 @@ impl<'a> IssueEntry<'a> {
             from_s: t.from_s,
             to_s: t.to_s,
             nodes: t.nodes,
+            stretches: t.stretches,
             values: IssueValues::of(s, t),
         }
     }

@@ -2,7 +2,9 @@
 
 A path is a text or a ``pathlib.Path``. A quantity is a text with its unit (``"2 um"``) or, where the option states a
 unit, a plain number in that unit. Positions and temperatures may be mappings: ``{"X": 3000, "C": -90}``. Every function
-takes `report`, the file of an HTML report, and `force`, which replaces files that this program did not write.
+takes `report`, the file of a report (``.html``, ``.pdf`` where this build has it), `heading`, a TOML file with what stands
+above a report that is filed and signed (number, date, customer, operator), and `force`, which replaces files that this program
+did not write.
 """
 
 from __future__ import annotations
@@ -28,7 +30,7 @@ _LISTS = frozenset(["diff", "files", "history", "limit", "score", "tolerance", "
 
 def ask(verb: str, given: Dict[str, Any]) -> Answer[Any]:
     """Puts a question; `given` are the arguments of the function that was called, by their names."""
-    report, force = given.pop("report"), given.pop("force")
+    report, heading, force = given.pop("report"), given.pop("heading"), given.pop("force")
     memory: Dict[str, bytes] = {}
     options: Dict[str, Any] = {name.rstrip("_"): _option(name, value) for name, value in given.items()}
     machine = given.get("machine")
@@ -42,7 +44,7 @@ def ask(verb: str, given: Dict[str, Any]) -> Answer[Any]:
     for one, other in _NEED:
         if one in options and other in options:
             needs(options, one, other)
-    native = _native.ask(verb, options, memory, path_of(report), bool(force))
+    native = _native.ask(verb, options, memory, path_of(report), path_of(heading), bool(force))
     answer: Answer[Any] = Answer(native)
     warn(answer.diagnostics, 3)
     return answer

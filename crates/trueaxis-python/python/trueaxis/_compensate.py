@@ -31,6 +31,7 @@ def compensate_values(
     temperature_log: Optional[Path] = None,
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[documents.CompensateDocument]:
     """The values that the control must add, per axis and position: ``trueaxis compensate values``.
@@ -74,6 +75,7 @@ def compensate_program(
     temperature_log: Optional[Path] = None,
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[documents.CompensateProgramDocument]:
     """An NC program rewritten so that the actual tool follows the programmed path: ``trueaxis compensate program``.
@@ -112,6 +114,7 @@ def compensate_tables(
     temperature_log: Optional[Path] = None,
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[documents.CompensateTablesDocument]:
     """The tables of a control, read back, with the residual errors: ``trueaxis compensate tables``.
@@ -140,6 +143,7 @@ def compensate_adapt(
     tolerance: Optional[Number] = None,
     cl: Optional[Path] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[documents.CompensateAdaptDocument]:
     """A path moved onto the blank that was measured, and the wall that remains: ``trueaxis compensate adapt``.
@@ -180,6 +184,7 @@ def post(
     temperature_log: Optional[Path] = None,
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[documents.PostDocument]:
     """Cutter locations to the NC program of one control: ``trueaxis post``.

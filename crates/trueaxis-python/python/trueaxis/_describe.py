@@ -25,6 +25,7 @@ def pose(
     temperature_log: Optional[Path] = None,
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[Any]:
     """Where the tool is, nominal and actual, and what each error contributes: ``trueaxis pose``.
@@ -58,6 +59,7 @@ def solve(
     temperature_log: Optional[Path] = None,
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[Any]:
     """Axis positions for a required position and direction of the tool, all solutions: ``trueaxis solve``.
@@ -82,6 +84,7 @@ def part(
     *,
     output: Optional[Path] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[documents.PartDocument]:
     """What a part file asks for, or a draft of one from a QIF file: ``trueaxis part``.
@@ -122,6 +125,7 @@ def simulate(
     temperature_log: Optional[Path] = None,
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[documents.SimulateDocument]:
     """An NC program on the actual machine: time, travel, deviations of the tool, issues: ``trueaxis simulate``.
@@ -173,6 +177,7 @@ def trace(
     temperature_log: Optional[Path] = None,
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[documents.TraceDocument]:
     """One block of a program through every stage of the simulation: ``trueaxis trace``.
@@ -205,6 +210,7 @@ def predict(
     results: Optional[Path] = None,
     compensated: bool = False,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[Any]:
     """Will the test piece or part be within tolerance, and what does each error contribute: ``trueaxis predict``.

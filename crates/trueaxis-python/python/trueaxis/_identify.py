@@ -19,6 +19,7 @@ def identify(
     predictor: Optional[Path] = None,
     check_conventions: bool = False,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[documents.IdentifyErrorsDocument]:
     """The errors of the machine from measurements, with their uncertainties: ``trueaxis identify``.
@@ -37,6 +38,7 @@ def identify_expansion(
     *,
     output: Optional[Path] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[Any]:
     """The expansion coefficient of scales from laser runs at several temperatures: ``trueaxis identify expansion``.
@@ -51,6 +53,7 @@ def identify_tables(
     *,
     output: Optional[Path] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[documents.IdentifyTablesDocument]:
     """Error tables and squareness from laser readings and ball-bar circles: ``trueaxis identify tables``.
@@ -65,6 +68,7 @@ def identify_surface(
     *,
     output: Optional[Path] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[documents.IdentifySurfaceDocument]:
     """The deviations of a surface from the hits of a probing program: ``trueaxis identify surface``.
@@ -79,6 +83,7 @@ def identify_thermal(
     *,
     score: Optional[Union[Path, Sequence[Path]]] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[documents.IdentifyThermalDocument]:
     """A linear model of an error that drifts with temperatures, from logs: ``trueaxis identify thermal``.
@@ -95,6 +100,7 @@ def identify_rtcp(
     control: Optional[str] = None,
     output: Optional[Path] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[Any]:
     """The rotary centres for RTCP from readings at turned poses: ``trueaxis identify rtcp``.
@@ -117,6 +123,7 @@ def identify_probe(
     control: Optional[str] = None,
     orientation: Optional[Number] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[Any]:
     """The offset of a stylus ball and its pre-travel by direction: ``trueaxis identify probe``.
@@ -137,6 +144,7 @@ def identify_tools(
     date: Optional[str] = None,
     output: Optional[Path] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[documents.IdentifyToolsDocument]:
     """Length, diameter and wear of tools from the log of a tool setting: ``trueaxis identify tools``.

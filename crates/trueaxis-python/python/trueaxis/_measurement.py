@@ -22,6 +22,7 @@ def measure(
     truth: Optional[Path] = None,
     seed: Optional[int] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[Any]:
     """Readings of the instruments of a campaign on a virtual machine: ``trueaxis measure``.
@@ -44,6 +45,7 @@ def plan(
     control: Optional[str] = None,
     output: Optional[Path] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[documents.PlanDocument]:
     """Which errors a measurement determines, with what uncertainty, and its programs: ``trueaxis plan``.
@@ -62,6 +64,7 @@ def plan_probe_surface(
     control: Optional[str] = None,
     output: Optional[Path] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[documents.PlanProbeSurfaceDocument]:
     """A probing path over a surface without a collision: ``trueaxis plan probe-surface``.
@@ -79,6 +82,7 @@ def plan_tool_setting(
     control: Optional[str] = None,
     output: Optional[Path] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[documents.PlanToolSettingDocument]:
     """The program that measures the tools of a set-up: ``trueaxis plan tool-setting``.
@@ -105,6 +109,7 @@ def evaluate(
     tolerances: Optional[Path] = None,
     rule: Optional[str] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[Any]:
     """Readings by ISO 230 and related standards: ``trueaxis evaluate``.
@@ -133,6 +138,7 @@ def evaluate_form(
     tolerance: Optional[str] = None,
     u: Optional[str] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[documents.EvaluateFormDocument]:
     """Roundness, straightness, flatness, sphericity, cylindricity of points: ``trueaxis evaluate form``.
@@ -157,6 +163,7 @@ def verify(
     limit: Optional[Union[str, Sequence[str]]] = None,
     output: Optional[Path] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[Any]:
     """Readings against a prediction, calibrations, certificates, measured parts: ``trueaxis verify``.

@@ -17,6 +17,7 @@ def ask(
     options: Dict[str, Any],
     memory: Mapping[str, bytes],
     report: Optional[str],
+    heading: Optional[str],
     force: bool,
 ) -> Answer: ...
 @final

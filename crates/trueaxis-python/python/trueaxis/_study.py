@@ -29,6 +29,7 @@ def study(
     sensitivity: Optional[int] = None,
     table: Optional[Path] = None,
     report: Optional[Path] = None,
+    heading: Optional[Path] = None,
     force: bool = False,
 ) -> Answer[documents.StudyDocument]:
     """How many machines hold the part on how many days, and what makes the variance: ``trueaxis study``.

@@ -643,6 +643,10 @@ class CompensateProgramDocument(Record):
         tip_between_um: CompensateProgramDocument.LineValue
         #: Of the tool axis between the ends, µrad.
         axis_between_urad: CompensateProgramDocument.LineValue
+        #: Root mean square of the tip over the ends of blocks, µm.
+        tip_at_ends_rms_um: float
+        #: Of the tool axis over the ends of blocks, µrad.
+        axis_at_ends_rms_urad: float
 
     class LineValue(Record):
         """A value and the line of the program where it occurs."""
@@ -3807,6 +3811,8 @@ class SimulateDocument(Record):
     control: str
     #: Whether a set-up was given; without one work offsets and tool lengths are 0.
     set_up_given: bool
+    #: The result.
+    verdict: SimulateDocument.VerdictEntry
     #: The whole time, s.
     time_s: float
     #: Time of rapid moves, s.
@@ -3831,8 +3837,8 @@ class SimulateDocument(Record):
     reversals: List[SimulateDocument.ReversalEntry]
     #: The issues that were found.
     troubles: List[SimulateDocument.IssueEntry]
-    #: How many more of the same kinds were found, but not listed.
-    troubles_left_out: int
+    #: How many stretches of issues there are in all: the sum of `stretches`.
+    troubles_found: int
     #: How many functions of the program that move the tool or its place are not executed: they are among the diagnostics.
     motion_left_out: int
     #: How many times the program asks for a speed of the spindle or a tool that the machine does not have: they are among the diagnostics.
@@ -3858,6 +3864,15 @@ class SimulateDocument(Record):
         name: str
         #: Its kinematic chain from workpiece to tool.
         chain: str
+
+    class VerdictEntry(Record):
+        """The result in a word and a sentence."""
+        #: `good`: nothing endangers part or machine and no time is lost; `bad`; `open`: neither.
+        standing: str
+        #: Such as `CRITICAL`.
+        word: str
+        #: What that means.
+        sentence: str
 
     class AxisEntry(Record):
         """The motion of one axis."""
@@ -3941,6 +3956,8 @@ class SimulateDocument(Record):
         to_s: float
         #: How many points of the path are in it.
         nodes: int
+        #: How many stretches it holds: above 1 where there are so many of its kind that the nearest were put together.
+        stretches: int
 
     class ToolEntry(Record):
         """A tool."""

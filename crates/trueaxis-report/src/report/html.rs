@@ -1,8 +1,10 @@
 //! A report as one self-contained page.
 
-use super::{Columns, Figure, Item, Report, Section, Standing, Table, Verdict};
+use super::{Columns, Figure, Heading, Item, Logo, Report, Section, Standing, Table, Verdict};
 use crate::DrawingError;
 use crate::page::{THREE, document};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use maud::{Markup, PreEscaped, html};
 
 /// Tables of more columns are printed smaller.
@@ -11,16 +13,45 @@ const MANY_COLUMNS: usize = 6;
 const LONG: usize = 20;
 
 pub(super) fn html(report: &Report<'_>) -> Result<String, DrawingError> {
-    let sections = report.sections.iter().filter(|s| s.shows(false));
-    let sections = sections.map(section).collect::<Result<Vec<_>, _>>()?;
+    let sections = report.on_page().map(section).collect::<Result<Vec<_>, _>>()?;
+    let heading = report.heading.as_ref();
     let content = html! {
+        @if let Some(logo) = heading.and_then(|h| h.logo.as_ref()) { (picture(logo)) }
         h1 { (report.title) }
         @for line in &report.lines { p.soft { (line) } }
+        @if let Some(heading) = heading { (self::heading(heading)) }
         @if let Some(v) = &report.verdict { (verdict(v)) }
         @for section in &sections { (section) }
-        p.soft { "made by trueaxis " (crate::VERSION) }
+        @if let Some(heading) = heading { (signatures(heading)) }
+        p.soft { (report.made_by()) }
     };
     Ok(document(&report.title, &content))
+}
+
+fn picture(logo: &Logo) -> Markup {
+    let data = STANDARD.encode(&logo.bytes);
+    html! { img.logo alt="logo" src={ "data:" (logo.kind.media_type()) ";base64," (data) }; }
+}
+
+fn heading(heading: &Heading) -> Markup {
+    html! {
+        section {
+            table.words { tbody { @for (name, value) in &heading.entries {
+                tr { td.soft { (name) } td { (value) } }
+            } } }
+            @if let Some(table) = &heading.table { (self::table(table)) }
+        }
+    }
+}
+
+fn signatures(heading: &Heading) -> Markup {
+    html! {
+        @if !heading.signatures.is_empty() {
+            div.signatures { @for name in &heading.signatures {
+                div { (name) ": name, date, signature" }
+            } }
+        }
+    }
 }
 
 fn verdict(verdict: &Verdict) -> Markup {

@@ -82,7 +82,7 @@ impl Table {
     }
 
     /// How many columns it has.
-    pub(super) fn columns(&self) -> usize {
+    pub fn columns(&self) -> usize {
         let cells = self.rows.iter().map(|row| row.cells.len());
         cells.chain([self.headings.len()]).max().unwrap_or(0)
     }

@@ -112,21 +112,58 @@ impl Request for SaveRequest {
         let _one = desk.saving.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         let current = path.exists().then(|| read(&path)).transpose()?;
         if current.as_deref().map(version) != self.version {
-            let message = format!("{name} was changed elsewhere since it was opened");
-            let hint = "open it again, or save under another name";
+            let (message, hint) = match self.version {
+                Some(_) => (
+                    format!("{name} was changed elsewhere since it was opened"),
+                    "open it again, or save under another name",
+                ),
+                None => (
+                    format!("{name} is there already"),
+                    "save under another name: nothing is replaced",
+                ),
+            };
             return Err(Refusal::new(409, "conflict", message, hint));
         }
         files::write(&path, text).map_err(|e| {
             Refusal::new(422, "unwritable-file", format!("{name} cannot be written: {e}"), "")
         })?;
         let version = version(text);
-        let change = ChangeEntry {
-            path: Some(name.clone()),
-            version: Some(version.clone()),
-            window: self.window.clone(),
-        };
-        // It fails if no other window is open.
-        let _ = desk.changed.send(change);
+        tell(desk, name, &version, self.window.clone());
+        Ok(Reply::json(&SaveAnswer { path: name, version: &version }))
+    }
+}
+
+/// Tells the windows of a file that was saved.
+fn tell(desk: &Desk, name: &str, version: &str, window: Option<String>) {
+    let (path, version) = (Some(name.to_owned()), Some(version.to_owned()));
+    // It fails if no other window is open.
+    let _ = desk.changed.send(ChangeEntry { path, version, window });
+}
+
+/// Saves a file that an answer made, under its name or another one with the same ending. A file that is there is replaced
+/// only if TrueAxis wrote it and it was not edited since.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SaveMadeRequest {
+    /// The number of the files of the answer.
+    made: u64,
+    /// Which of them, from 0.
+    file: usize,
+    /// Its path below the project folder.
+    path: String,
+    /// The window that saves it.
+    window: Option<String>,
+}
+
+impl Request for SaveMadeRequest {
+    type Answer<'a> = SaveAnswer<'a>;
+
+    fn answer(self, desk: &Desk, _: &Job) -> Result<Reply<Self>, Refusal> {
+        let name = &self.path;
+        let _one = desk.saving.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let version =
+            desk.made_file(self.made, self.file, |made, file| made.save(desk, file, name))??;
+        tell(desk, name, &version, self.window.clone());
         Ok(Reply::json(&SaveAnswer { path: name, version: &version }))
     }
 }

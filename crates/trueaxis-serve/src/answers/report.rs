@@ -11,7 +11,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use trueaxis::questions::{
-    Answer, Identify, PlanMeasurement, Predict, Question, Simulate, VerifyReadings,
+    Answer, Certify, CompareCalibrations, Identify, LaserBeforeAfter, PlanMeasurement, Predict,
+    Question, Simulate, VerifyHistory, VerifyPart, VerifyReadings,
 };
 use trueaxis::report::DrawingError;
 
@@ -21,9 +22,9 @@ use trueaxis::report::DrawingError;
 pub(super) struct ReportRequest {
     /// The command whose report it is.
     verb: Verb,
-    /// The file that the command takes.
+    /// The file that the command takes; a folder, for `history`.
     file: String,
-    /// The machine file, for `simulate`.
+    /// The machine file, for `simulate`; the older one, for `diff`.
     machine: Option<String>,
     /// The standard, for `evaluate`.
     standard: Option<String>,
@@ -47,6 +48,16 @@ enum Verb {
     Evaluate,
     /// Prediction and measurement compared.
     Verify,
+    /// Two calibrations compared.
+    Diff,
+    /// The figures of one machine over its calibrations.
+    History,
+    /// A compensation certified.
+    Certificate,
+    /// A laser before and after a compensation.
+    Laser,
+    /// A measured test piece.
+    Part,
 }
 
 impl Verb {
@@ -58,6 +69,11 @@ impl Verb {
             Self::Identify => "identify",
             Self::Evaluate => "evaluate",
             Self::Verify => "verify",
+            Self::Diff => "diff",
+            Self::History => "history",
+            Self::Certificate => "certificate",
+            Self::Laser => "laser",
+            Self::Part => "part",
         }
     }
 }
@@ -106,6 +122,17 @@ impl ReportRequest {
                 page(&EvaluateRequest::of(standard, self.file).question(desk)?, job)
             }
             Verb::Verify => page(&VerifyReadings { file }, job),
+            Verb::Diff => {
+                let old = desk.project.path(&needed(self.machine, "machine")?)?;
+                page(&CompareCalibrations { old, new: file }, job)
+            }
+            Verb::History => {
+                let files = desk.project.in_folder(&self.file, &["toml", "json"])?;
+                page(&VerifyHistory { files, limits: Vec::new() }, job)
+            }
+            Verb::Certificate => page(&Certify { study: file }, job),
+            Verb::Laser => page(&LaserBeforeAfter { campaign: file, output: None }, job),
+            Verb::Part => page(&VerifyPart { file }, job),
         }
     }
 }

@@ -145,6 +145,8 @@ pub(super) struct MarkEntry {
     program: u32,
     /// The line there, from 1.
     line: u32,
+    /// How many stretches it holds: above 1 where the nearest of many were put together.
+    stretches: u64,
 }
 
 impl MarkEntry {
@@ -157,6 +159,7 @@ impl MarkEntry {
             text: issue_text(machine, issue),
             program: issue.first.program,
             line: issue.first.line,
+            stretches: issue.stretches,
         }
     }
 }

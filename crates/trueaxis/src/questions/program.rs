@@ -58,7 +58,8 @@ pub struct ProgramAnswer {
     output: Option<PathBuf>,
     shown_output: String,
     options: ProgramOptions,
-    rewritten: Rewritten,
+    /// The program and its proof.
+    pub rewritten: Rewritten,
     /// What it can cost that the temperature of the workpiece is not known.
     price: Option<String>,
 }

@@ -79,9 +79,7 @@ impl CompensateTables {
             ..Order::of(self.target)
         })
     }
-}
 
-impl CompensateTables {
     /// The tables of some controls hold errors of axes alone: without the growth of the workpiece they make a warm part
     /// worse (Zhang et al. 2019, section 3.2.1).
     fn can_hold_growth(&self, machine: &Machine, problems: &mut Diagnostics) {

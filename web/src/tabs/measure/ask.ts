@@ -5,8 +5,22 @@ import { Refusal, type Diagnostic, type ProjectFile, type Reply, type Request } 
 import { fill, h, type Child } from "../../dom.ts";
 import { count } from "./words.ts";
 
+/** Questions of tabs that ask one at a time. */
+type Asked =
+  | "plan"
+  | "identify"
+  | "evaluate"
+  | "compensate-program"
+  | "compensate-tables"
+  | "compensate-values"
+  | "compensate-adapt"
+  | "verify"
+  | "measure-sheet"
+  | "measure-check"
+  | "measure";
+
 /** Asks; a newer question drops the older one. */
-export class Question<N extends "plan" | "identify" | "evaluate"> {
+export class Question<N extends Asked> {
   private readonly app: App;
   private readonly name: N;
   private running: AbortController | null = null;

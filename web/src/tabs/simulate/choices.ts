@@ -33,10 +33,13 @@ export class Choices {
   private choice: Choice = { machine: null, program: null, setup: null, control: null };
   private dropped: Dropped | null = null;
   private readonly pick: (choice: Choice, dropped: Dropped | null) => void;
+  private readonly edit: () => void;
 
-  constructor(app: App, pick: (choice: Choice, dropped: Dropped | null) => void) {
+  /** `edit`: opens the set-up of the program. */
+  constructor(app: App, pick: (choice: Choice, dropped: Dropped | null) => void, edit: () => void) {
     this.app = app;
     this.pick = pick;
+    this.edit = edit;
   }
 
   show(choice: Choice, dropped: Dropped | null): void {
@@ -62,6 +65,11 @@ export class Choices {
       this.labelled(
         "Set-up",
         this.select("setup", this.files("setup", choice.setup), dropped ? "none" : "beside the program", choice.setup),
+        h(
+          "button",
+          { dataTest: "edit-set-up", title: "Work offset, tools, stock", onclick: () => this.edit() },
+          "Edit …",
+        ),
       ),
       this.labelled("Control", this.select("control", CONTROLS, "automatic", choice.control)),
     );

@@ -29,6 +29,21 @@ export class Readout {
   private readonly block = h("code", { class: "readout-block", dataTest: "block" });
   private readonly speed = h("span", { dataTest: "speed" });
   private readonly cells = new Map<string, HTMLElement>();
+  private readonly why: HTMLElement;
+
+  /** `why`: shows what makes the deviation at the present block. */
+  constructor(why: () => void) {
+    this.why = h(
+      "button",
+      {
+        type: "button",
+        dataTest: "why-here",
+        title: "What each error contributes at this block, and what slows it",
+        onclick: why,
+      },
+      "Why here?",
+    );
+  }
 
   setAxes(axes: SimulatedAxis[]): void {
     this.axes = axes;
@@ -46,7 +61,7 @@ export class Readout {
       );
     fill(
       this.element,
-      h("div", { class: "readout-head" }, this.place, this.block, this.speed),
+      h("div", { class: "readout-head" }, this.place, this.block, this.speed, this.why),
       h(
         "table",
         { class: "readout-axes" },

@@ -6,7 +6,7 @@ import { fill, h, type Child } from "../../dom.ts";
 import { clock, clockUnit, mm, number, um, urad, withUnit } from "../../format.ts";
 import type { Mark, SimulationDocument, SimulationHeader } from "./answers.ts";
 
-/** Rows of issues in the page; the report has all. */
+/** Rows of issues in the page; the time line has all. */
 const MOST_ROWS = 200;
 
 function fact(title: string, value: Child, key: string, more: Child = null): HTMLElement {
@@ -52,27 +52,31 @@ function stockFacts(stock: SimulationDocument["stock"]): Child {
 
 const cm3 = (mm3: number): string => withUnit(mm3 / 1e3, 2, "cm³");
 
+/** The verdict of the report and of the command, and how often what was found. */
 function verdict(header: SimulationHeader): HTMLElement {
-  const critical = header.marks.filter((m) => m.grave);
+  const { standing, word, sentence } = header.document.verdict;
   const kinds = new Map<string, number>();
-  for (const mark of critical) kinds.set(mark.kind, (kinds.get(mark.kind) ?? 0) + 1);
-  const errors = header.diagnostics.filter((d) => d.severity === "error").length;
+  for (const mark of header.marks.filter((m) => m.grave))
+    kinds.set(mark.kind, (kinds.get(mark.kind) ?? 0) + mark.stretches);
   const words = [...kinds].map(([kind, n]) => `${n} × ${kind.replaceAll("-", " ")}`);
-  const { motion_left_out, beyond_equipment } = header.document;
-  if (motion_left_out > 0) words.push(`${motion_left_out} × motion not executed`);
-  if (beyond_equipment > 0) words.push(`${beyond_equipment} × beyond spindle or magazine`);
-  if (errors > 0) words.unshift(errors === 1 ? "one error in the program" : `${errors} errors in the program`);
-  if (words.length === 0)
-    return h("strong", { class: "runs good", dataTest: "verdict" }, "Runs: no collision, no over-travel");
-  return h("strong", { class: "runs bad", dataTest: "verdict" }, `Does not run: ${words.join(", ")}`);
+  return h(
+    "div",
+    { class: `runs ${standing}`, role: "status", dataTest: "verdict" },
+    h("strong", {}, word),
+    ` ${sentence}`,
+    words.length > 0 ? h("span", { class: "muted" }, ` (${words.join(", ")})`) : null,
+  );
 }
 
 export class Summary {
   readonly element = h("section", { class: "panel simulate-summary", ariaLabel: "Result" });
   private readonly seek: (time_s: number) => void;
+  private readonly state: () => void;
 
-  constructor(seek: (time_s: number) => void) {
+  /** `state`: opens the set-up, to be stated. */
+  constructor(seek: (time_s: number) => void, state: () => void) {
     this.seek = seek;
+    this.state = state;
   }
 
   clear(): void {
@@ -95,6 +99,7 @@ export class Summary {
           : null;
     fill(
       this.element,
+      doc.set_up_given ? null : this.noSetUp(),
       h("div", { class: "panel-head" }, verdict(header), h("span", { class: "muted" }, doc.control)),
       this.critical(header.marks),
       h(
@@ -173,30 +178,41 @@ export class Summary {
     );
   }
 
-  private critical(marks: readonly Mark[]): Child {
-    const critical = marks.filter((m) => m.grave);
-    if (critical.length === 0) return null;
+  private noSetUp(): HTMLElement {
     return h(
-      "ul",
-      { class: "issues critical" },
-      critical.slice(0, MOST_ROWS).map((m) => this.issue(m)),
+      "div",
+      { class: "no-set-up", role: "alert", dataTest: "no-set-up" },
+      h("span", {}, "No set-up: work offsets and tool lengths count as 0."),
+      h("button", { class: "primary", onclick: () => this.state() }, "State the set-up …"),
     );
   }
 
-  private remarks({ marks, document: doc }: SimulationHeader): Child {
+  private critical(marks: readonly Mark[]): Child {
+    const critical = marks.filter((m) => m.grave);
+    if (critical.length === 0) return null;
+    return [
+      h(
+        "ul",
+        { class: "issues critical" },
+        critical.slice(0, MOST_ROWS).map((m) => this.issue(m)),
+      ),
+      more(critical),
+    ];
+  }
+
+  private remarks({ marks }: SimulationHeader): Child {
     const rest = marks.filter((m) => !m.grave);
-    const left_out = Math.max(0, rest.length - MOST_ROWS) + doc.troubles_left_out;
     if (rest.length === 0) return null;
     return h(
       "details",
       { class: "simulate-said" },
-      h("summary", {}, rest.length === 1 ? "One remark" : `${rest.length} remarks`),
+      h("summary", {}, found(rest) === 1 ? "One remark" : `${found(rest)} remarks`),
       h(
         "ul",
         { class: "issues" },
         rest.slice(0, MOST_ROWS).map((m) => this.issue(m)),
       ),
-      left_out > 0 ? h("p", { class: "muted" }, `and ${left_out} more`) : null,
+      more(rest),
     );
   }
 
@@ -210,8 +226,17 @@ export class Summary {
         { class: "issue", dataKind: mark.kind, onclick: () => this.seek(mark.time_s) },
         h("span", { class: "muted number" }, `${clock(mark.time_s)}${until}`),
         h("span", { class: "muted number" }, `line ${mark.line}`),
-        h("span", {}, mark.text),
+        h("span", {}, mark.stretches > 1 ? `${mark.text} (${mark.stretches} stretches, the worst of them)` : mark.text),
       ),
     );
   }
+}
+
+/** How many stretches there are. */
+const found = (marks: readonly Mark[]): number => marks.reduce((sum, mark) => sum + mark.stretches, 0);
+
+/** What the list does not show. */
+function more(marks: readonly Mark[]): Child {
+  const rest = found(marks.slice(MOST_ROWS));
+  return rest > 0 ? h("p", { class: "muted" }, `and ${rest} more of these: the time line has all of them`) : null;
 }

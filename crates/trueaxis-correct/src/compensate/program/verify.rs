@@ -40,6 +40,10 @@ pub struct Residual {
     pub tip: Largest,
     /// The tool axis there.
     pub axis: Largest,
+    /// Root mean square of the tip at the ends of blocks, mm.
+    pub tip_end_rms_mm: f64,
+    /// Of the tool axis there, rad.
+    pub axis_end_rms_rad: f64,
 }
 
 /// One block before and after.
@@ -57,6 +61,16 @@ pub struct BlockResidual {
     pub axis_after_rad: f64,
 }
 
+impl BlockResidual {
+    /// Takes what is larger in another block; its line stays.
+    fn take(&mut self, other: &Self) {
+        self.tip_before_mm = self.tip_before_mm.max(other.tip_before_mm);
+        self.tip_after_mm = self.tip_after_mm.max(other.tip_after_mm);
+        self.axis_before_rad = self.axis_before_rad.max(other.axis_before_rad);
+        self.axis_after_rad = self.axis_after_rad.max(other.axis_after_rad);
+    }
+}
+
 /// What the written program does on the actual machine.
 #[derive(Debug, Clone, Default)]
 pub struct Proof {
@@ -66,6 +80,9 @@ pub struct Proof {
     pub after: Residual,
     /// The worst blocks, by the residual error of the tip.
     pub worst: Vec<BlockResidual>,
+    /// All blocks along the program; of a long one stretches of blocks, each with its largest deviations under its
+    /// first line.
+    pub along: Vec<BlockResidual>,
     /// Pieces compared at their ends.
     pub compared: u64,
     /// Axes that leave their travel.
@@ -76,6 +93,9 @@ pub struct Proof {
 
 /// Blocks in the list of the worst.
 const WORST: usize = 20;
+
+/// Entries along the program.
+const ALONG: usize = 2000;
 
 /// Simulates the program as it was and the one that was written; `limits` of its tip, mm, and its axis, rad, between the ends of blocks.
 pub(super) fn prove(
@@ -97,9 +117,10 @@ pub(super) fn prove(
         || simulate(machine, is, setup, &options, &mut [&mut after, &mut watch]),
     );
     Proof {
-        before: before.residual,
-        after: after.residual,
+        before: before.residual(),
+        after: after.residual(),
         worst: worst(&before.rows, &after.rows),
+        along: along(&before.rows, &after.rows),
         compared: after.compared,
         issues: IssueList::of([watch.log]),
         problems: run.problems,
@@ -128,20 +149,26 @@ impl Observer for TravelWatch<'_> {
     }
 }
 
+/// The blocks of both runs that were passed, in the order of their lines.
+fn blocks<'r>(
+    before: &'r [Missed],
+    after: &'r [Missed],
+) -> impl Iterator<Item = BlockResidual> + 'r {
+    let both = before.iter().zip(after).enumerate();
+    let passed = both.filter(|(_, (before, after))| **before != UNSEEN || **after != UNSEEN);
+    passed.map(|(line, (before, after))| BlockResidual {
+        line: line as u32,
+        tip_before_mm: before[0].max(0.0),
+        tip_after_mm: after[0].max(0.0),
+        axis_before_rad: before[1].max(0.0),
+        axis_after_rad: after[1].max(0.0),
+    })
+}
+
 /// The worst blocks of both runs; of equal ones those that come first.
 fn worst(before: &[Missed], after: &[Missed]) -> Vec<BlockResidual> {
     let mut worst: Vec<BlockResidual> = Vec::with_capacity(WORST + 1);
-    for (line, (before, after)) in before.iter().zip(after).enumerate() {
-        if *before == UNSEEN && *after == UNSEEN {
-            continue;
-        }
-        let row = BlockResidual {
-            line: line as u32,
-            tip_before_mm: before[0].max(0.0),
-            tip_after_mm: after[0].max(0.0),
-            axis_before_rad: before[1].max(0.0),
-            axis_after_rad: after[1].max(0.0),
-        };
+    for row in blocks(before, after) {
         let is_before = |other: &BlockResidual| {
             let by = other.tip_after_mm.total_cmp(&row.tip_after_mm);
             by.then(other.tip_before_mm.total_cmp(&row.tip_before_mm)).is_ge()
@@ -153,6 +180,19 @@ fn worst(before: &[Missed], after: &[Missed]) -> Vec<BlockResidual> {
         }
     }
     worst
+}
+
+/// All blocks of both runs, or the largest of stretches of equally many.
+fn along(before: &[Missed], after: &[Missed]) -> Vec<BlockResidual> {
+    let each = blocks(before, after).count().div_ceil(ALONG).max(1);
+    let mut along: Vec<BlockResidual> = Vec::new();
+    for (i, row) in blocks(before, after).enumerate() {
+        match along.last_mut().filter(|_| i % each > 0) {
+            Some(stretch) => stretch.take(&row),
+            None => along.push(row),
+        }
+    }
+    along
 }
 
 /// The largest deviations in a block: of the tip, mm, and of the tool axis, rad.
@@ -178,6 +218,8 @@ struct Compare<'f> {
     ended: bool,
     rows: Vec<Missed>,
     residual: Residual,
+    /// Sums of the squares of tip, mm, and tool axis, rad, at the ends of blocks.
+    squares: [f64; 2],
     compared: u64,
 }
 
@@ -205,8 +247,14 @@ impl<'f> Compare<'f> {
             ended: false,
             rows,
             residual: Residual::default(),
+            squares: [0.0; 2],
             compared: 0,
         }
+    }
+
+    fn residual(&self) -> Residual {
+        let rms = self.squares.map(|sum| (sum / self.compared.max(1) as f64).sqrt());
+        Residual { tip_end_rms_mm: rms[0], axis_end_rms_rad: rms[1], ..self.residual }
     }
 
     fn wants(&self, line: u32) -> &'f [Want] {
@@ -252,6 +300,7 @@ impl<'f> Compare<'f> {
         let [tip, axis] = is.from(wanted);
         self.residual.tip_end.take(tip, want.line);
         self.residual.axis_end.take(axis, want.line);
+        self.squares = [self.squares[0] + tip * tip, self.squares[1] + axis * axis];
         self.compared += 1;
         self.row(want.line, [tip, axis]);
     }
@@ -288,5 +337,29 @@ impl Observer for Compare<'_> {
                 self.row(first.line, missed);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn along_a_long_program_each_stretch_has_its_largest() {
+        let mut before = vec![UNSEEN; 5001];
+        let mut after = before.clone();
+        for line in 1..=5000 {
+            before[line] = [line as f64, 0.0];
+            after[line] = [1.0 / line as f64, 0.5];
+        }
+        after[7] = UNSEEN;
+        let along = along(&before, &after);
+        // 5000 blocks in stretches of three.
+        assert_eq!(along.len(), 1667);
+        let row = |i: usize| (along[i].line, along[i].tip_before_mm, along[i].tip_after_mm);
+        assert_eq!([row(0), row(2)], [(1, 3.0, 1.0), (7, 9.0, 1.0 / 8.0)]);
+        assert_eq!(along[1666].axis_after_rad, 0.5);
+        let few = super::along(&before[..3], &after[..3]);
+        assert_eq!(few.iter().map(|b| b.line).collect::<Vec<_>>(), [1, 2]);
     }
 }

@@ -1,0 +1,99 @@
+//! The file of a report that a command was asked for: checked before the work, printed after it.
+
+use crate::{Form, PrintError, Printed, print, read_heading};
+use std::path::{Path, PathBuf};
+use trueaxis_input::{Diagnostics, Files, Place};
+use trueaxis_report::{Heading, Report};
+
+/// The file of a report.
+#[derive(Debug)]
+pub struct ReportFile {
+    path: PathBuf,
+    form: Form,
+    heading: Option<Heading>,
+}
+
+impl ReportFile {
+    /// What was asked for: the file of the report, and that of its heading. None without a report, or with errors, which
+    /// stand in `problems`.
+    ///
+    /// ```
+    /// use trueaxis_input::{Diagnostics, Files};
+    /// use trueaxis_paper::ReportFile;
+    /// let mut problems = Diagnostics::new();
+    /// let file = ReportFile::read(Some("x.docx".as_ref()), None, &Files::none(), &mut problems);
+    /// assert!(file.is_none());
+    /// assert_eq!(problems.iter().next().unwrap().code, "unknown-report-form");
+    /// ```
+    pub fn read(
+        path: Option<&Path>,
+        heading: Option<&Path>,
+        files: &Files,
+        problems: &mut Diagnostics,
+    ) -> Option<Self> {
+        let form = path.and_then(|path| form(path, problems));
+        let read = heading.map(|heading| read_heading(files, heading, problems));
+        if let (None, Some(heading)) = (path, heading) {
+            let place = Place::whole(&heading.display().to_string());
+            let message = "a heading without a report".to_owned();
+            problems.error("no-report", place, message, "add `--report FILE.pdf`");
+        }
+        match read {
+            Some(None) => None,
+            Some(heading) => Some(Self { path: path?.to_owned(), form: form?, heading }),
+            None => Some(Self { path: path?.to_owned(), form: form?, heading: None }),
+        }
+    }
+
+    /// Where it goes.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The content of the file. Characters without a glyph become a warning.
+    ///
+    /// # Errors
+    /// What the drawing or typesetting library says.
+    pub fn print(
+        &self,
+        report: Report<'_>,
+        problems: &mut Diagnostics,
+    ) -> Result<Vec<u8>, PrintError> {
+        let report = Report { heading: self.heading.clone(), date: today(), ..report };
+        let Printed { bytes, missing } = print(&report, self.form)?;
+        if !missing.is_empty() {
+            let place = Place::whole(&self.path.display().to_string());
+            let message = format!("no font has the characters `{missing}`: boxes stand for them");
+            let hint =
+                "install a font that has them, such as Noto Sans CJK, or write an HTML report";
+            problems.warn("missing-glyph", place, message, hint);
+        }
+        Ok(bytes)
+    }
+}
+
+fn form(path: &Path, problems: &mut Diagnostics) -> Option<Form> {
+    let place = Place::whole(&path.display().to_string());
+    let Some(form) = Form::of(path) else {
+        let message = "a report is HTML or PDF, by the ending of its name".to_owned();
+        problems.error("unknown-report-form", place, message, "name it FILE.html or FILE.pdf");
+        return None;
+    };
+    if form.is_there() {
+        return Some(form);
+    }
+    let hint = "name it FILE.html, which every browser prints; or take the Debian package, or build with `--features pdf`";
+    problems.error("no-pdf", place, "this build of trueaxis writes no PDF".to_owned(), hint);
+    None
+}
+
+/// The day, as ISO 8601 writes it; that of `SOURCE_DATE_EPOCH` (seconds) where it is set, so that the same input gives the
+/// same file.
+fn today() -> String {
+    let stated = std::env::var("SOURCE_DATE_EPOCH").ok().and_then(|text| text.parse().ok());
+    let stated = stated.and_then(|seconds| jiff::Timestamp::from_second(seconds).ok());
+    match stated {
+        Some(moment) => moment.strftime("%Y-%m-%d").to_string(),
+        None => jiff::ZonedDateTime::now().strftime("%Y-%m-%d").to_string(),
+    }
+}
