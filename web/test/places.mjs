@@ -57,6 +57,19 @@ const PLACES = {
   plan: [
     { at: "plan?campaign=examples/04_plan/touch-probe-5-minutes.toml", ready: '#tab-plan [data-test="confounded"]' },
   ],
+  measure: [{ at: "measure?campaign=examples/04_plan/probe-ball.toml", ready: "#tab-measure table td" }],
+  compensate: [
+    {
+      at: "compensate?of=program&machine=machines/xkas2525/machine.toml&program=examples/06_compensate/frustum.mpf",
+      ready: "#tab-compensate table td, #tab-compensate .figure-svg",
+    },
+    {
+      name: "tables",
+      at: "compensate?of=tables&machine=machines/xkas2525/machine.toml&target=heidenhain",
+      ready: "#tab-compensate table td",
+    },
+  ],
+  verify: [{ at: "verify?file=examples/07_verify/probe-ball.toml", ready: "#tab-verify table td" }],
   identify: [
     {
       at: "identify?campaign=examples/05_identify/mixed-instruments.toml",
