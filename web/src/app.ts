@@ -1,9 +1,13 @@
 /** The frame of the page: tabs, the open project and machine, status line, messages. */
 
+import { Address, hashOf, readHash, type Change as Kept } from "./address.ts";
 import { Api, Refusal, type Change, type Diagnostic, type Project } from "./api.ts";
 import { fill, h } from "./dom.ts";
+import { withErrorNames } from "./glossary/glossary.ts";
+import { keysButton } from "./keys.ts";
 import { TABS } from "./tabs/index.ts";
 import { chooseTheme, themeChoice, type ThemeChoice } from "./theme.ts";
+import { chooseLanguage, language, languages, words } from "./words/index.ts";
 
 export interface TabHandle {
   /** The tab is shown with these parameters of the address (`machine=…&program=…`). */
@@ -49,14 +53,16 @@ interface Mounted {
 export class App {
   readonly api = new Api();
   private state_: State = { project: null, machine: null, tab: "start", connection: "connecting" };
+  private readonly address = new Address();
   private readonly listeners = new Set<(state: Readonly<State>) => void>();
   private readonly mounted = new Map<string, Mounted>();
   /** How often the address has changed. */
   private turns = 0;
   private readonly bar = h("header", { class: "bar" });
-  private readonly main = h("main", { class: "main", id: "main", tabindex: "-1" });
-  private readonly tabs = h("nav", { class: "tabs", role: "tablist", ariaLabel: "Verbs" });
+  private readonly main = h("main", { class: "main", id: "main", tabindex: "-1", lang: "en" });
+  private readonly tabs = h("nav", { class: "tabs", role: "tablist", ariaLabel: words.verbs });
   private readonly folder = h("span", { class: "folder" });
+  private readonly unsaved_link = h("a", { class: "unsaved", dataTest: "unsaved", hidden: true });
   private readonly note = h("span", { class: "status-note", role: "status" });
   private readonly link = h("span", { class: "status-link" });
   private readonly meter = h("progress", {
@@ -64,9 +70,9 @@ export class App {
     max: "1",
     value: 0,
     hidden: true,
-    ariaLabel: "Progress",
+    ariaLabel: words.progress,
   });
-  private readonly toasts = h("div", { class: "toasts", ariaLive: "polite" });
+  private readonly toasts = h("div", { class: "toasts", ariaLive: "polite", lang: "en" });
 
   constructor(root: HTMLElement) {
     this.buildBar();
@@ -75,6 +81,9 @@ export class App {
     this.api.onChange = (change) => this.tellChange(change);
     this.subscribe((state) => this.showState(state));
     window.addEventListener("hashchange", () => void this.route());
+    window.addEventListener("beforeunload", (event) => {
+      if (!this.unsaved_link.hidden) event.preventDefault();
+    });
   }
 
   // ---- store ----
@@ -99,12 +108,15 @@ export class App {
 
   /** Opens a tab; the parameters stand in the address, so that reload and back work. */
   go(tab: string, params: Record<string, string | null | undefined> = {}): void {
-    const query = new URLSearchParams();
-    for (const [key, value] of Object.entries(params)) if (value) query.set(key, value);
-    const text = query.toString().replaceAll("%2F", "/");
-    const hash = `#${tab}${text ? `?${text}` : ""}`;
+    this.address.flush();
+    const hash = hashOf(tab, params);
     if (location.hash === hash) void this.route();
     else location.hash = hash;
+  }
+
+  /** Parts of the address of a tab that follow what the user does; back does not stop at each of them. */
+  keep(tab: string, change: Kept): void {
+    this.address.keep(tab, change);
   }
 
   has(tab: string): boolean {
@@ -129,20 +141,20 @@ export class App {
     const own = from === this.api.window;
     for (const [name, { handle }] of this.mounted)
       if (!own || name !== this.state_.tab) handle?.changed?.(path ?? null, version ?? null);
-    if (!own && path) this.say(`${path} was saved in another window`);
+    if (!own && path) this.say(words.saved_elsewhere(path));
     if (!this.state_.project?.files.some((file) => file.path === path)) void this.loadProject();
   }
 
   private async route(): Promise<void> {
-    const [name = "", query = ""] = location.hash.replace(/^#/, "").split("?", 2);
+    const { tab: name, params } = readHash();
     const entry = TABS.find((tab) => tab.name === name) ?? TABS[0];
     if (!entry) return;
-    const params = Object.fromEntries(new URLSearchParams(query));
+    this.address.opened(entry.name, params);
     const turn = ++this.turns;
     const before = this.mounted.get(this.state_.tab);
     if (this.state_.tab !== entry.name) before?.handle?.hide?.();
     this.set({ tab: entry.name, ...(params.machine ? { machine: params.machine } : {}) });
-    document.title = `${entry.title} – TrueAxis`;
+    document.title = `${titleOf(entry)} – TrueAxis`;
     try {
       const now = await this.mountTab(entry);
       for (const [key, { host }] of this.mounted) host.hidden = key !== this.state_.tab;
@@ -163,10 +175,12 @@ export class App {
       class: `tab tab-${entry.name}`,
       id: `tab-${entry.name}`,
       role: "tabpanel",
-      ariaLabel: entry.title,
+      "aria-labelledby": `tab-link-${entry.name}`,
     });
     const load = async (): Promise<void> => {
       fresh.handle = (await entry.load()).mount(host, this);
+      host.prepend(h("h1", { class: "visually-hidden" }, entry.title));
+      this.tabs.querySelector(`[data-tab="${entry.name}"]`)?.setAttribute("aria-controls", host.id);
     };
     const fresh: Mounted = { host, handle: null, ready: Promise.resolve() };
     this.mounted.set(entry.name, fresh);
@@ -177,6 +191,16 @@ export class App {
   }
 
   // ---- status and messages ----
+
+  /** Files with edits that are not saved, said on every tab; the link leads to the first. */
+  unsaved(tab: string, paths: readonly string[]): void {
+    const [first] = paths;
+    this.unsaved_link.hidden = first === undefined;
+    if (first === undefined) return;
+    this.unsaved_link.href = hashOf(tab, { machine: first });
+    this.unsaved_link.title = paths.join("\n");
+    this.unsaved_link.textContent = words.unsaved(paths.length);
+  }
 
   /** One line below; replaces the last. */
   say(text: string): void {
@@ -212,8 +236,14 @@ export class App {
       h("strong", {}, refusal.message),
       refusal.hint ? h("p", { class: "hint" }, refusal.hint) : null,
       refusal.diagnostics.length > 0 ? diagnosticList(refusal.diagnostics.slice(0, 6)) : null,
-      refusal.diagnostics.length > 6 ? h("p", { class: "muted" }, `and ${refusal.diagnostics.length - 6} more`) : null,
-      h("button", { class: "toast-close", ariaLabel: "Close this message", onclick: () => toast.remove() }, "×"),
+      refusal.diagnostics.length > 6
+        ? h("p", { class: "muted", lang: language() }, words.more(refusal.diagnostics.length - 6))
+        : null,
+      h(
+        "button",
+        { class: "toast-close", lang: language(), ariaLabel: words.close_message, onclick: () => toast.remove() },
+        "×",
+      ),
     );
     this.toasts.append(toast);
     while (this.toasts.children.length > 4) this.toasts.firstElementChild?.remove();
@@ -222,53 +252,84 @@ export class App {
   // ---- bar ----
 
   private buildBar(): void {
-    for (const { name, title } of TABS) {
+    for (const entry of TABS) {
+      const { name } = entry;
       this.tabs.append(
         h(
           "a",
           {
             class: "tab-link",
             role: "tab",
+            id: `tab-link-${name}`,
             href: `#${name}`,
             dataTab: name,
             onclick: (event: MouseEvent) => this.keepMachine(event, name),
           },
-          title,
+          titleOf(entry),
         ),
       );
     }
     this.tabs.addEventListener("keydown", (event) => this.moveFocus(event));
     const theme = h(
       "select",
-      { class: "theme", ariaLabel: "Light or dark", onchange: () => chooseTheme(theme.value as ThemeChoice) },
-      h("option", { value: "auto" }, "System"),
-      h("option", { value: "light" }, "Light"),
-      h("option", { value: "dark" }, "Dark"),
+      { class: "theme", ariaLabel: words.theme, onchange: () => chooseTheme(theme.value as ThemeChoice) },
+      h("option", { value: "auto" }, words.themes.auto),
+      h("option", { value: "light" }, words.themes.light),
+      h("option", { value: "dark" }, words.themes.dark),
     );
     theme.value = themeChoice();
-    fill(this.bar, h("span", { class: "name" }, "TrueAxis"), this.tabs, this.folder, theme);
+    const tongue = h(
+      "select",
+      { class: "language", ariaLabel: words.language, onchange: () => chooseLanguage(tongue.value) },
+      languages.map(({ code, name }) => h("option", { value: code, lang: code }, name)),
+    );
+    tongue.value = language();
+    fill(
+      this.bar,
+      h("span", { class: "name" }, "TrueAxis"),
+      this.tabs,
+      this.folder,
+      this.unsaved_link,
+      keysButton(),
+      tongue,
+      theme,
+    );
   }
 
-  /** A click on a tab keeps the open machine. */
+  /** A click on a tab keeps the open machine, and what the tab showed of it. */
   private keepMachine(event: MouseEvent, name: string): void {
     if (event.ctrlKey || event.metaKey || event.shiftKey) return;
     event.preventDefault();
-    this.go(name, name === "start" ? {} : { machine: this.state_.machine });
+    this.address.flush();
+    const { machine } = this.state_;
+    this.go(name, name === "start" ? {} : { ...this.address.lastOf(name, machine), machine });
   }
 
   private moveFocus(event: KeyboardEvent): void {
-    const step = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
     const links = [...this.tabs.querySelectorAll("a")];
     const at = links.indexOf(document.activeElement as HTMLAnchorElement);
-    if (step === 0 || at < 0) return;
+    const to = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: links.length - 1 }[event.key];
+    if (at < 0) return;
+    if (event.key === " ") links[at]?.click();
+    else if (to !== undefined) links[(to + links.length) % links.length]?.focus();
+    else return;
     event.preventDefault();
-    links[(at + step + links.length) % links.length]?.focus();
+  }
+
+  /** Where the bar is too narrow for all tabs. (`scrollIntoView` would also move where the Tab key goes on.) */
+  private bringIntoSight(link: HTMLElement): void {
+    const [bar, box] = [this.tabs.getBoundingClientRect(), link.getBoundingClientRect()];
+    if (box.left < bar.left) this.tabs.scrollLeft -= bar.left - box.left;
+    else if (box.right > bar.right) this.tabs.scrollLeft += box.right - bar.right;
   }
 
   private showState(state: Readonly<State>): void {
     for (const link of this.tabs.querySelectorAll("a")) {
       const here = link.dataset.tab === state.tab;
       link.setAttribute("aria-selected", String(here));
+      // One stop of the Tab key; the arrow keys reach the others.
+      link.tabIndex = here ? 0 : -1;
+      if (here) this.bringIntoSight(link);
     }
     const folder = state.project?.folder ?? "";
     this.folder.textContent = folder.replace(/^.*\/(?=[^/]+\/?$)/, "");
@@ -276,12 +337,15 @@ export class App {
     this.link.dataset.state = state.connection;
     const version = state.project ? ` ${state.project.version}` : "";
     this.link.textContent = {
-      connecting: "connecting …",
+      connecting: words.connecting,
       open: `TrueAxis${version}`,
-      lost: "no connection – trying again",
+      lost: words.lost,
     }[state.connection];
   }
 }
+
+/** A tab that the words do not know keeps its own title. */
+const titleOf = ({ name, title }: TabEntry): string => words.tabs[name] ?? title;
 
 /** "machine.toml:41:8  message  hint", one line each. */
 export function diagnosticList(diagnostics: readonly Diagnostic[]): HTMLElement {
@@ -299,7 +363,7 @@ export function diagnosticList(diagnostics: readonly Diagnostic[]): HTMLElement 
         { class: `diagnostic ${d.severity}` },
         h("span", { class: "diagnostic-severity" }, d.severity),
         place ? h("code", {}, place) : null,
-        h("span", {}, d.message),
+        h("span", {}, withErrorNames(d.message)),
         d.hint ? h("span", { class: "hint" }, d.hint) : null,
       );
     }),

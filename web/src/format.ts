@@ -51,8 +51,31 @@ export function withUncertainty(value: number, u: number | null | undefined, dig
   return `${number(value, digits)}${NARROW_SPACE}±${NARROW_SPACE}${number(u, digits)}${NARROW_SPACE}${unit}`;
 }
 
-/** "2:05.3" of a machining time. */
+/** "4 h 21 min 58.9 s", from an hour on; below, null. */
+function hours(time_s: number): string | null {
+  // Rounded first: not "59 min 60.0 s".
+  const tenths = Math.round(10 * time_s);
+  if (!(tenths >= 36_000)) return null;
+  const minutes = Math.floor(tenths / 600);
+  const rest = number((tenths - 600 * minutes) / 10, 1);
+  return `${Math.floor(minutes / 60)}${NARROW_SPACE}h ${minutes % 60}${NARROW_SPACE}min ${rest}${NARROW_SPACE}s`;
+}
+
+/** "5 min 13.6 s", "4 h 21 min 58.9 s". */
+export function duration(time_s: number): string {
+  const tenths = Math.round(10 * time_s);
+  if (tenths < 600) return `${number(time_s, 1)}${NARROW_SPACE}s`;
+  const minutes = Math.floor(tenths / 600);
+  return hours(time_s) ?? `${minutes}${NARROW_SPACE}min ${number((tenths - 600 * minutes) / 10, 1)}${NARROW_SPACE}s`;
+}
+
+/** " min:s" after a time of less than an hour; the longer ones have their units in them. */
+export const clockUnit = (time_s: number): string => (hours(time_s) === null ? " min:s" : "");
+
+/** "2:05.3" of a machining time, minutes and seconds; from an hour on with its units. */
 export function clock(time_s: number): string {
+  const long = hours(time_s);
+  if (long !== null) return long;
   const minutes = Math.floor(time_s / 60);
   const rest = fixed(time_s - 60 * minutes, 1);
   return `${minutes}:${rest.padStart(4, "0")}`;

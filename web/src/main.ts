@@ -13,9 +13,12 @@ import "./style/simulate-source.css";
 import "./style/set-up.css";
 import "./style/simulate-time.css";
 import "./style/live.css";
+import "./style/dialog.css";
 import { App } from "./app.ts";
 import { startTheme } from "./theme.ts";
+import { language } from "./words/index.ts";
 
 startTheme();
+document.documentElement.lang = language();
 const root = document.getElementById("app");
 if (root) void new App(root).start();

@@ -32,6 +32,12 @@ assert.equal(format.um(Number.NaN), "–");
 assert.equal(format.withUncertainty(12, 1, 1, "µm"), "12.0\u202f±\u202f1.0\u202fµm");
 assert.equal(format.factor(50_000), "×50\u202f000");
 assert.equal(format.clock(125.34), "2:05.3");
+assert.equal(format.clock(15718.88), "4\u202fh 21\u202fmin 58.9\u202fs");
+assert.equal(format.clock(3599.94), "59:59.9");
+assert.equal(format.clock(3599.96), "1\u202fh 0\u202fmin 0.0\u202fs");
+assert.equal(format.clockUnit(15718.88), "");
+assert.equal(format.clockUnit(59), " min:s");
+assert.equal(format.duration(313.6), "5\u202fmin 13.6\u202fs");
 
 const sent = { a: Float64Array.of(1 / 3, -2), b: Uint8Array.of(1, 2, 3), c: Float32Array.of(0.5) };
 const frame = decodeFrame(encodeFrame({ id: 7, what: "x" }, sent));
@@ -64,6 +70,18 @@ for (const [text, lines] of [
     JSON.stringify(text),
   );
 }
+const found = new Lines("G0 X1\nG1 x2\n\nM30\n");
+for (const [words, from, step, line] of [
+  ["x", 1, 1, 2],
+  ["x", 2, 1, 1],
+  ["X", 1, -1, 2],
+  ["x1", 4, -1, 1],
+  ["m30", 1, 1, 4],
+  ["m30", 4, 1, 4],
+  ["y", 1, 1, null],
+  ["", 1, 1, null],
+])
+  assert.equal(found.find(words, from, step), line, `${words} from ${from}`);
 const many = new Lines(Array.from({ length: 100_000 }, (_, i) => `N${i}`).join("\n"));
 assert.equal(many.count, 100_000);
 assert.equal(many.line(99_999), "N99998");

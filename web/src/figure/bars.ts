@@ -1,6 +1,8 @@
 /** Horizontal bars, signed, with uncertainty: an error budget, for example. */
 
 import { s } from "../dom.ts";
+import { explain } from "../glossary/glossary.ts";
+import { errorName } from "../glossary/names.ts";
 import { NO_NUMBER, number, withUncertainty } from "../format.ts";
 import { figure, ticks, type Drawing, type Figure } from "./figure.ts";
 
@@ -80,14 +82,15 @@ function drawBar(d: Drawing, spec: BarSpec, bar: Bar, i: number, g: { x: (v: num
   const [a, b] = [g.x(0), g.x(bar.value ?? 0)].sort((p, q) => p - q) as [number, number];
   const colour = bar.colour ?? "var(--series-1)";
   const text = valueText(bar, spec);
+  const words = `${bar.name}: ${text}${bar.note ? `, ${bar.note}` : ""}`;
+  const name = s("text", { x: g.names - 8, y: y + 11, "text-anchor": "end", fill: "var(--ink)" }, bar.name);
   const row = s(
     "g",
     { class: spec.onpick ? "pick" : "" },
-    s("title", {}, `${bar.name}: ${text}${bar.note ? `, ${bar.note}` : ""}`),
+    s("title", {}, words),
     s("rect", { x: 0, y: y - 3, width: d.width, height: ROW, fill: "transparent" }),
   );
   row.append(
-    s("text", { x: g.names - 8, y: y + 11, "text-anchor": "end", fill: "var(--ink)" }, bar.name),
     s("rect", { x: a, y: y + 1, width: bar.value === null ? 0 : Math.max(0.75, b - a), height: ROW - 8, fill: colour }),
     s("text", { x: d.width, y: y + 11, "text-anchor": "end", fill: "var(--ink)" }, text),
   );
@@ -109,11 +112,31 @@ function drawBar(d: Drawing, spec: BarSpec, bar: Bar, i: number, g: { x: (v: num
   if (pick) {
     row.setAttribute("tabindex", "0");
     row.setAttribute("role", "button");
-    row.setAttribute("aria-label", `${bar.name}: ${text}`);
-    row.addEventListener("click", () => pick(bar, i));
-    row.addEventListener("keydown", (event) => event.key === "Enter" && pick(bar, i));
+    row.setAttribute("aria-label", words);
+    for (const one of row.querySelectorAll("text")) one.setAttribute("aria-hidden", "true");
+    pressed(row, () => pick(bar, i));
   }
-  d.svg.append(row);
+  d.svg.append(row, name);
+  if (errorName(bar.name)) explained(name, bar.name);
+}
+
+/** As a button: a click, Enter or space. */
+function pressed(element: SVGElement, act: () => void): void {
+  element.addEventListener("click", act);
+  element.addEventListener("keydown", (event) => {
+    if (event.key !== "Enter" && event.key !== " ") return;
+    event.preventDefault();
+    act();
+  });
+}
+
+/** The name of an error leads to the glossary. */
+function explained(text: SVGElement, name: string): void {
+  text.setAttribute("class", "error-text-link");
+  text.setAttribute("tabindex", "0");
+  text.setAttribute("role", "button");
+  text.setAttribute("aria-label", `${name}: what it is`);
+  pressed(text, () => explain(name));
 }
 
 export function bars(host: HTMLElement, spec: BarSpec): Figure<BarSpec> {

@@ -122,9 +122,10 @@ export function chainPicture(host: HTMLElement, spec: ChainSpec): Figure<ChainSp
                 "text-anchor": "middle",
                 fill: "var(--ink)",
                 "font-weight": "600",
-                "font-size": ends ? Math.min(11.5, box / 6.3) : 12.5,
+                "font-size": ends && box >= 54 ? Math.min(11.5, (box - 8) / 5.2) : 12.5,
               },
-              cell.name,
+              // Where the word would be too small, the letter of the chain.
+              ends && box < 54 ? cell.body : cell.name,
             ),
             ...glyph(cell.kind, x, 34),
           );
@@ -132,7 +133,7 @@ export function chainPicture(host: HTMLElement, spec: ChainSpec): Figure<ChainSp
           group.addEventListener("pointerleave", () => now.onhover?.(null));
           svg.append(group);
           // Words that would run into their neighbours are left to the tooltip.
-          const size = Math.min(10.5, (step - 4) / (0.56 * cell.below.length));
+          const size = Math.min(10.5, (step - 6) / (0.62 * cell.below.length));
           if (size > 8)
             svg.append(
               s("text", { x, y: 60, "text-anchor": "middle", fill: "var(--muted)", "font-size": size }, cell.below),

@@ -2,6 +2,7 @@
 
 import { download, h, perFrame, s } from "../dom.ts";
 import { onTheme } from "../theme.ts";
+import { showData } from "./data.ts";
 
 /** Columns of the data of a figure, as they go into the CSV file: heading with unit, values. */
 export interface Column {
@@ -100,13 +101,23 @@ export interface Exports {
   svg?: () => string;
   png: () => Promise<Blob | null>;
   csv: () => string;
+  columns: () => Column[];
 }
 
-/** The small menu at the upper right of a figure: SVG, PNG, CSV. */
+/** The small menu at the upper right of a figure: its numbers as a table, SVG, PNG, CSV. */
 export function exportMenu(title: () => string, exports: Exports): HTMLElement {
   const item = (label: string, run: () => void): HTMLElement =>
     h("button", { class: "figure-save", ariaLabel: `Save as ${label}`, onclick: run }, label);
-  const save = h("span", { class: "figure-menu", role: "group", ariaLabel: "Save this figure" });
+  const table = h(
+    "button",
+    {
+      class: "figure-save",
+      title: "The numbers of this figure as a table",
+      onclick: () => showData(title(), exports.columns()),
+    },
+    "Table",
+  );
+  const save = h("span", { class: "figure-menu", role: "group", ariaLabel: "This figure as numbers and files" }, table);
   const svg = exports.svg;
   if (svg) save.append(item("SVG", () => download(`${fileName(title())}.svg`, svg(), "image/svg+xml")));
   save.append(
@@ -129,6 +140,7 @@ export function figure<D>(host: HTMLElement, data: D, make: (data: D) => FigureS
     svg: svgText,
     png: () => pngOf(svgText(), width, height),
     csv: csvText,
+    columns: () => source.columns(),
   });
   const element = h("figure", { class: "figure" }, h("div", { class: "figure-head" }, title, menu), place);
   host.append(element);
@@ -148,6 +160,11 @@ export function figure<D>(host: HTMLElement, data: D, make: (data: D) => FigureS
       class: "figure-svg",
     });
     source.draw({ svg, width, height });
+    // What holds buttons is no picture to a screen reader: they would be lost in it.
+    if (svg.querySelector("[tabindex]")) {
+      svg.setAttribute("role", "group");
+      svg.removeAttribute("tabindex");
+    }
     const focused = place.contains(document.activeElement);
     place.replaceChildren(svg);
     if (focused) svg.focus({ preventScroll: true });

@@ -175,7 +175,7 @@ function drawPolar(d: Drawing, spec: PolarSpec): void {
   const magnified = spec.radius_mm
     ? `deviations ${factor((c.k * (spec.units_per_mm ?? 1000)) / (c.base / spec.radius_mm))}`
     : `${withUnit(c.step, 3, spec.unit)} per ring`;
-  d.svg.append(s("text", { x: 4, y: d.height - 4, fill: "var(--actual)", "font-weight": "600" }, magnified));
+  d.svg.append(s("text", { x: 4, y: d.height - 4, fill: "var(--actual-ink)", "font-weight": "600" }, magnified));
   addPolarReadout(d, spec, c, at);
 }
 

@@ -160,7 +160,7 @@ function drawScale(d: Drawing, spec: VectorSpec, v: View): void {
   const um = roundNumber(70 / px_per_um, false);
   const y = d.height - 8;
   d.svg.append(
-    s("text", { x: 4, y, fill: "var(--actual)", "font-weight": "600" }, `arrows ${factor(spec.magnification)}`),
+    s("text", { x: 4, y, fill: "var(--actual-ink)", "font-weight": "600" }, `arrows ${factor(spec.magnification)}`),
     s("path", { d: arrowPath(120, y - 4, um * px_per_um, 0), fill: "none", stroke: "var(--ink)", "stroke-width": 1.4 }),
     s("text", { x: 126 + um * px_per_um, y, fill: "var(--ink)" }, withUnit(um, um < 1 ? 2 : 0, "µm")),
   );

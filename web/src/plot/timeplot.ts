@@ -3,7 +3,7 @@
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { h, perFrame } from "../dom.ts";
-import { csvOf, exportMenu } from "../figure/figure.ts";
+import { csvOf, exportMenu, type Column } from "../figure/figure.ts";
 import { number, withUnit } from "../format.ts";
 import { cssColour, onTheme } from "../theme.ts";
 
@@ -100,8 +100,14 @@ class TimePlotView implements TimePlot {
   constructor(host: HTMLElement, spec: TimePlotSpec, options: TimePlotOptions) {
     this.spec = spec;
     this.options = options;
-    const menu = exportMenu(() => this.spec.title, { png: () => this.png(), csv: () => this.csvText() });
+    const menu = exportMenu(() => this.spec.title, {
+      png: () => this.png(),
+      csv: () => this.csvText(),
+      columns: () => this.columns(),
+    });
     this.place.tabIndex = 0;
+    // Its keys are its own: a screen reader hands them over.
+    this.place.setAttribute("role", "application");
     this.place.addEventListener("keydown", (event) => this.key(event));
     this.element = h(
       "figure",
@@ -153,8 +159,12 @@ class TimePlotView implements TimePlot {
   }
 
   csvText(): string {
+    return csvOf(this.columns());
+  }
+
+  private columns(): Column[] {
     const { series, unit, time_s } = this.spec;
-    return csvOf([
+    return [
       { heading: `time (${this.spec.time_unit ?? "s"})`, values: time_s },
       ...series.flatMap((one) => [
         { heading: `${one.name} (${unit})`, values: one.values },
@@ -165,7 +175,7 @@ class TimePlotView implements TimePlot {
             ]
           : []),
       ]),
-    ]);
+    ];
   }
 
   dispose(): void {

@@ -8,10 +8,10 @@ type ViewName = "iso" | "x" | "y" | "z";
 
 /** From where each view looks. */
 const VIEWS: Record<ViewName, { from: [number, number, number]; label: string; title: string }> = {
-  iso: { from: [-0.62, -1, 0.62], label: "Iso", title: "Look from the front, left, above (0)" },
-  x: { from: [1, 0, 0.0001], label: "X", title: "Look along X (1)" },
-  y: { from: [0, -1, 0.0001], label: "Y", title: "Look along Y, from the front (2)" },
-  z: { from: [0, -0.0001, 1], label: "Z", title: "Look along Z, from above (3)" },
+  iso: { from: [-0.62, -1, 0.62], label: "Iso", title: "Iso: look from the front, left, above (0)" },
+  x: { from: [1, 0, 0.0001], label: "X", title: "X: look along X (1)" },
+  y: { from: [0, -1, 0.0001], label: "Y", title: "Y: look along Y, from the front (2)" },
+  z: { from: [0, -0.0001, 1], label: "Z", title: "Z: look along Z, from above (3)" },
 };
 
 const KEYS: Record<string, ViewName> = { "0": "iso", "1": "x", "2": "y", "3": "z" };
@@ -22,10 +22,15 @@ const TURNS: Record<string, [number, number]> = {
   ArrowDown: [0, 1],
 };
 
+/** For the address: "x", "iso,parallel" or azimuth, elevation (°), height that is seen, target (mm). */
+export type ViewState = string;
+
 interface Seen {
   /** What the whole picture has to show. */
   corners: () => Vector3[];
   moved: () => void;
+  /** The user chose another view. */
+  chosen: () => void;
 }
 
 export class ViewCamera {
@@ -36,11 +41,13 @@ export class ViewCamera {
   /** Half of what the parallel projection shows in height, mm, at zoom 1. */
   private half = 1000;
   private aspect = 1;
+  /** The view that the camera has by a name. */
+  private named: ViewName | null = null;
   private controls: OrbitControls | null = null;
   private readonly seen: Seen;
   private readonly parallel = h(
     "button",
-    { onclick: () => this.toggleParallel(), ariaPressed: "false", title: "Parallel projection (5)" },
+    { onclick: () => this.chosen(() => this.toggleParallel()), ariaPressed: "false", title: "Parallel projection (5)" },
     "Parallel",
   );
 
@@ -51,11 +58,15 @@ export class ViewCamera {
     const views = (Object.keys(VIEWS) as ViewName[]).map((name) =>
       h(
         "button",
-        { title: VIEWS[name].title, ariaLabel: VIEWS[name].title, onclick: () => this.setView(name) },
+        {
+          title: VIEWS[name].title,
+          ariaLabel: VIEWS[name].title,
+          onclick: () => this.chosen(() => this.setView(name)),
+        },
         VIEWS[name].label,
       ),
     );
-    const fit = h("button", { title: "Show everything (4)", onclick: () => this.fit() }, "Fit");
+    const fit = h("button", { title: "Show everything (4)", onclick: () => this.chosen(() => this.fit()) }, "Fit");
     this.buttons = h(
       "div",
       { class: "scene-tools" },
@@ -79,12 +90,56 @@ export class ViewCamera {
     canvas.addEventListener("keydown", (event) => this.key(event));
     this.controls = new OrbitControls(this.current, canvas);
     this.controls.addEventListener("change", () => this.seen.moved());
+    this.controls.addEventListener("end", () => this.chosen(() => (this.named = null)));
   }
 
   // ---- what is seen ----
 
   setView(name: ViewName): void {
     this.look(new Vector3(...VIEWS[name].from).normalize(), this.seen.corners());
+    this.named = name;
+  }
+
+  private chosen(act: () => void): void {
+    act();
+    this.seen.chosen();
+  }
+
+  /** The view in words, for the address. */
+  get state(): ViewState {
+    const parallel = this.current === this.orthographic ? ",parallel" : "";
+    if (this.named) return `${this.named}${parallel}`;
+    const arm = this.arm();
+    const degrees = (angle: number): string => ((angle * 180) / Math.PI).toFixed(1);
+    const place = this.target()
+      .toArray()
+      .map((v) => v.toFixed(1));
+    const elevation = Math.asin(Math.max(-1, Math.min(1, arm.z / arm.length())));
+    return (
+      [degrees(Math.atan2(arm.y, arm.x)), degrees(elevation), this.height().toPrecision(4), ...place].join(",") +
+      parallel
+    );
+  }
+
+  /** Goes to a view in words; one that cannot be read changes nothing. */
+  set state(words: ViewState) {
+    const parts = words.split(",");
+    const parallel = parts.at(-1) === "parallel";
+    if (parallel) parts.pop();
+    if (parallel !== (this.current === this.orthographic)) this.toggleParallel();
+    const [name] = parts;
+    if (name && name in VIEWS) this.setView(name as ViewName);
+    const numbers = parts.map(Number);
+    if (numbers.length !== 6 || !numbers.every(Number.isFinite)) return;
+    const [azimuth, elevation, height, x, y, z] = numbers as [number, number, number, number, number, number];
+    if (!(height > 0)) return;
+    const [a, e] = [(azimuth * Math.PI) / 180, (elevation * Math.PI) / 180];
+    this.half = height / 2;
+    this.place(
+      new Vector3(Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e)),
+      new Vector3(x, y, z),
+      this.half / this.tangent(),
+    );
   }
 
   fit(): void {
@@ -118,10 +173,15 @@ export class ViewCamera {
       this.half = Math.max(this.half, half);
       distance = Math.max(distance, off.dot(from) + half / this.tangent());
     }
+    this.place(from, centre, distance);
+  }
+
+  private place(from: Vector3, centre: Vector3, distance: number): void {
+    this.named = null;
     for (const camera of [this.perspective, this.orthographic]) {
       camera.position.copy(centre).addScaledVector(from, distance);
       camera.near = Math.max(1, distance / 200);
-      camera.far = distance * 20;
+      camera.far = Math.max(5e4, distance * 20);
     }
     this.orthographic.zoom = 1;
     this.controls?.target.copy(centre);
@@ -187,6 +247,7 @@ export class ViewCamera {
   private key(event: KeyboardEvent): void {
     const view = KEYS[event.key];
     const turn = TURNS[event.key];
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (view) this.setView(view);
     else if (event.key === "4") this.fit();
     else if (event.key === "5") this.toggleParallel();
@@ -195,7 +256,9 @@ export class ViewCamera {
     else if (turn && event.shiftKey) this.pan(...turn);
     else if (turn) this.turn(...turn);
     else return;
+    if (turn || "+=-".includes(event.key)) this.named = null;
     event.preventDefault();
+    this.seen.chosen();
   }
 
   private turn(x: number, y: number): void {

@@ -16,24 +16,68 @@ export function factorOf(slider: number): number {
 export const sliderOf = (k: number): number => (100 * Math.log(k)) / Math.log(MOST);
 
 /** The control of one picture; it sets the picture at once. */
-export function exaggerationControl(view: MachineView, start = 1000): HTMLElement {
-  const text = h("output", { class: "factor" });
-  const slider = h("input", {
-    type: "range",
-    min: "0",
-    max: "100",
-    step: "0.5",
-    class: "exaggeration",
-    ariaLabel: "Exaggeration of the deviations",
-    oninput: () => set(factorOf(Number(slider.value))),
-  });
-  const ghost = h("input", { type: "checkbox", checked: true, onchange: () => view.setGhostVisible(ghost.checked) });
-  const set = (k: number): void => {
-    slider.value = String(sliderOf(k));
-    slider.setAttribute("aria-valuetext", factor(k));
-    text.textContent = factor(k);
-    view.setExaggeration(k);
-  };
-  set(start);
-  return h("div", { class: "scene-control" }, h("label", { class: "check" }, ghost, "actual machine"), slider, text);
+export class Exaggeration {
+  readonly element: HTMLElement;
+  private readonly view: MachineView;
+  private readonly start: number;
+  private k: number;
+  private readonly text = h("output", { class: "factor" });
+  private readonly slider: HTMLInputElement;
+  private readonly ghost: HTMLInputElement;
+
+  /** `changed`: the user moved it. */
+  constructor(view: MachineView, changed: () => void = () => {}, start = 1000) {
+    this.view = view;
+    this.k = this.start = start;
+    this.slider = h("input", {
+      type: "range",
+      min: "0",
+      max: "100",
+      step: "0.5",
+      class: "exaggeration",
+      ariaLabel: "Exaggeration of the deviations",
+      oninput: () => {
+        this.set(factorOf(Number(this.slider.value)));
+        changed();
+      },
+    });
+    this.ghost = h("input", {
+      type: "checkbox",
+      checked: true,
+      onchange: () => {
+        view.setGhostVisible(this.ghost.checked);
+        changed();
+      },
+    });
+    this.element = h(
+      "div",
+      { class: "scene-control" },
+      h("label", { class: "check" }, this.ghost, "actual machine"),
+      this.slider,
+      this.text,
+    );
+    this.set(start);
+  }
+
+  private set(k: number): void {
+    this.k = k;
+    this.slider.value = String(sliderOf(k));
+    this.slider.setAttribute("aria-valuetext", factor(k));
+    this.text.textContent = factor(k);
+    this.view.setExaggeration(k);
+  }
+
+  /** For the address; what is as at the beginning is left out. */
+  get state(): { k: string | null; actual: string | null } {
+    return { k: this.k === this.start ? null : String(this.k), actual: this.ghost.checked ? null : "off" };
+  }
+
+  /** As an address says; what it does not name stays. */
+  take({ k, actual }: Readonly<Record<string, string>>): void {
+    const wanted = Number(k);
+    if (wanted >= 1) this.set(Math.min(MOST, wanted));
+    if (actual === undefined || (actual !== "off") === this.ghost.checked) return;
+    this.ghost.checked = actual !== "off";
+    this.view.setGhostVisible(this.ghost.checked);
+  }
 }

@@ -39,7 +39,15 @@ export class MachineView {
   private readonly scene = new Scene();
   private readonly renderer: WebGLRenderer | null;
   private pace: Pace | null = null;
-  private readonly camera = new ViewCamera({ corners: () => this.corners(), moved: () => this.requestRender() });
+  private readonly camera = new ViewCamera({
+    corners: () => this.corners(),
+    moved: () => this.requestRender(),
+    chosen: () => this.onView(this.camera.state),
+  });
+  /** The user chose another view. */
+  onView: (state: string) => void = () => {};
+  /** A view that was asked for before there was room for a picture. */
+  private wanted_view: string | null = null;
   private readonly bodies = new Bodies();
   private readonly layers = new WorkpieceLayers(this.overlay.legend);
   private machine: MachineDescription | null = null;
@@ -109,7 +117,10 @@ export class MachineView {
     this.layGrid();
     this.showBlock();
     this.showGhost();
-    if (!keep_view) this.camera.setView("iso");
+    if (!keep_view) {
+      this.wanted_view = null;
+      this.camera.setView("iso");
+    }
     this.requestRender();
   }
 
@@ -249,6 +260,12 @@ export class MachineView {
     this.overlay.element.classList.toggle("without-labels", !visible);
   }
 
+  /** Looks from where the words of an address say; nothing else changes that until another machine is shown. */
+  setView(state: string): void {
+    this.wanted_view = state;
+    if (this.size.width > 1) this.camera.state = state;
+  }
+
   // ---- poses and deviations ----
 
   /** 12 numbers per body, in the order of `links`: bed_from_body. */
@@ -352,7 +369,9 @@ export class MachineView {
     Object.assign(this.size, { width: clientWidth, height: clientHeight });
     this.renderer?.setSize(clientWidth, clientHeight);
     this.camera.resize(clientWidth, clientHeight);
-    if (first && this.machine) this.camera.setView("iso");
+    if (!first || !this.machine) return;
+    this.camera.setView("iso");
+    if (this.wanted_view) this.camera.state = this.wanted_view;
   }
 
   /** Draws at the next frame, once. */

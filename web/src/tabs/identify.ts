@@ -1,7 +1,10 @@
 /** What the machine is like, from readings: verdict, errors with their uncertainty, residuals. */
 
 import { split, type App, type Tab, type TabHandle } from "../app.ts";
+import type { Params } from "../address.ts";
+import { Refusal } from "../api.ts";
 import { download, fill, h } from "../dom.ts";
+import { keepFile, keptFile } from "../files.ts";
 import { heatmap, type Figure, type HeatmapSpec } from "../figure/index.ts";
 import type { Frame } from "../frame.ts";
 import { fileSelect, isAbort, Question, reportButton, showRefusal } from "./measure/ask.ts";
@@ -53,7 +56,11 @@ class IdentifyTab implements TabHandle {
     fill(right, this.head, this.result);
   }
 
-  open(params: Readonly<Record<string, string>>): void {
+  open(params: Params): void {
+    void this.openWith(params).catch((error: unknown) => this.app.fail(error));
+  }
+
+  private async openWith(params: Params): Promise<void> {
     const campaign =
       params.campaign ??
       this.campaign ??
@@ -66,8 +73,20 @@ class IdentifyTab implements TabHandle {
     }
     this.campaign = campaign;
     const handed = takeHanded();
-    if (handed) this.take(handed);
-    else void this.run();
+    if (handed) {
+      this.take(handed);
+      return;
+    }
+    if (params.dropped && params.dropped !== this.dropped?.name) {
+      this.dropped = await keptFile(this.app.state.project?.folder ?? "", params.dropped);
+      if (campaign !== this.campaign) return;
+      if (!this.dropped)
+        this.app.fail(
+          new Refusal("dropped-file", `${params.dropped} is not kept by this browser any more`, "Drop it here again."),
+        );
+    }
+    if (params.instrument) this.instrument = params.instrument;
+    void this.run();
   }
 
   hide(): void {
@@ -82,12 +101,18 @@ class IdentifyTab implements TabHandle {
 
   private take(file: TextFile): void {
     this.dropped = file;
+    void keepFile(this.app.state.project?.folder ?? "", file);
     this.asked = "";
     this.instrument = this.instruments.length === 1 ? (this.instruments[0]?.name ?? null) : null;
     void this.run();
   }
 
   private async run(): Promise<void> {
+    this.app.keep("identify", {
+      campaign: this.campaign,
+      dropped: this.dropped?.name,
+      instrument: this.dropped ? this.instrument : null,
+    });
     this.showForm();
     if (!this.campaign) {
       this.clear();

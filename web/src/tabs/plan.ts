@@ -1,6 +1,7 @@
 /** What to measure: paths on the machine, what they see, how well every error will be known. */
 
 import { diagnosticList, split, type App, type Tab, type TabHandle } from "../app.ts";
+import { numberIn, type Params } from "../address.ts";
 import { latestOnly, type PoseHeader } from "../api.ts";
 import { fill, h } from "../dom.ts";
 import type { Figure } from "../figure/index.ts";
@@ -55,6 +56,9 @@ class PlanTab implements TabHandle {
   /** The camera comes close once per machine; then it stays where the user put it. */
   private come_close = false;
   private path = 0;
+  private station = 0;
+  /** What the address says of how the plan is shown. */
+  private wanted: Params = {};
   private readonly pose = latestOnly<Pose, Frame<PoseHeader>>(
     (pose) => this.app.api.ask("pose", pose),
     (frame) => this.showPose(frame),
@@ -106,7 +110,20 @@ class PlanTab implements TabHandle {
       this.app.state.project?.examples.find((example) => example.tab === "plan")?.path ??
       null;
     this.dialect = params.dialect ?? this.dialect;
-    void this.run();
+    this.wanted = params;
+    void this.run().then(() => this.takeState());
+  }
+
+  /** The path and the station of the address. */
+  private takeState(): void {
+    const { path, station } = this.wanted;
+    const header = this.frame?.header;
+    if (!header || this.campaign !== this.shown) return;
+    this.wanted = {};
+    const at = header.paths.findIndex((one) => one.name === path);
+    if (at >= 0 && at !== this.path) this.choosePath(at);
+    const n = numberIn(station);
+    if (n !== null && n - 1 !== this.station) this.go(Math.min(Math.max(0, this.span()[1] - 1), Math.max(0, n - 1)));
   }
 
   hide(): void {
@@ -327,6 +344,12 @@ class PlanTab implements TabHandle {
   private go(station: number): void {
     if (!this.machine || !this.frame || this.span()[1] === 0) return;
     this.slider.value = String(station);
+    this.station = station;
+    this.app.keep("plan", {
+      campaign: this.campaign,
+      path: this.frame.header.paths[this.path]?.name,
+      station: station === 0 ? null : String(station + 1),
+    });
     const at = this.commands(station);
     // Lengths in a row have their unit once, after the last.
     const value = (name: string, unit: string, next: string | undefined): string =>

@@ -2,6 +2,7 @@
 
 import { diagnosticList, split, type App, type Tab, type TabHandle } from "../app.ts";
 import { latestOnly, Refusal } from "../api.ts";
+import type { Params } from "../address.ts";
 import { fill, h } from "../dom.ts";
 import { number } from "../format.ts";
 import type { Frame } from "../frame.ts";
@@ -51,6 +52,9 @@ class PredictTab implements TabHandle {
   /** Whether a part is judged by its program compensated for the machine, too. */
   private compensated = false;
   private stop = new AbortController();
+  /** What the address says of how it is shown. */
+  private wanted: Params = {};
+  private page: Page = "budget";
   /** The prediction of the file; what is shown may be changed. */
   private base: PieceFrame | null = null;
   private readonly ask = latestOnly<Wanted, PieceFrame>(
@@ -79,7 +83,11 @@ class PredictTab implements TabHandle {
       return;
     }
     const compensated = params.compensated === "true";
-    if (wanted === this.study && compensated === this.compensated) return;
+    this.wanted = params;
+    if (wanted === this.study && compensated === this.compensated) {
+      if (this.base || this.drawing) this.takeState();
+      return;
+    }
     this.compensated = compensated;
     void this.load(wanted);
   }
@@ -117,12 +125,27 @@ class PredictTab implements TabHandle {
       else if (isDrawing(frame)) this.showDrawing(study, frame);
       else this.showPiece(study, frame);
       this.app.say(study);
+      this.takeState();
     } catch (error) {
       progress.done();
       if (stop.signal.aborted) return;
       this.study = null;
       this.showFailure(study, Refusal.from(error));
     }
+  }
+
+  // ---- the address ----
+
+  /** How the prediction is shown, as the address says: changes of the machine, the page below, magnification. */
+  private takeState(): void {
+    const { what, page, k } = this.wanted;
+    const { piece } = this;
+    if (this.base && piece) {
+      piece.what_if.take(what ?? null);
+      piece.view.take(k);
+      if (page || what) this.showPage(PAGES.find(([name]) => name === page)?.[0] ?? this.page);
+    } else if (!this.drawing_page.hidden) this.drawing?.map.take(k);
+    this.app.keep("predict", { study: this.study });
   }
 
   /** Nothing of another study stays beside the message. */
@@ -152,7 +175,10 @@ class PredictTab implements TabHandle {
 
   private showDrawing(study: string, frame: Frame<DrawingHeader>): void {
     this.base = null;
-    this.drawing ??= new Drawing(this.drawing_page, this.app);
+    if (!this.drawing) {
+      this.drawing = new Drawing(this.drawing_page, this.app);
+      this.drawing.map.onMagnified = (k) => this.app.keep("predict", { k });
+    }
     this.drawing.show(study, frame);
   }
 
@@ -182,7 +208,7 @@ class PredictTab implements TabHandle {
       const host = h("div", { class: "predict-lower", dataPage: page });
       this.pages.set(page, host);
       right.append(host);
-      this.page_buttons.append(h("button", { dataShow: page, onclick: () => this.showPage(page) }, title));
+      this.page_buttons.append(h("button", { dataShow: page, onclick: () => this.choosePage(page) }, title));
     }
     const place = (page: Page): HTMLElement => this.pages.get(page) as HTMLElement;
     const what_if = new WhatIf(place("what-if"), (changes) => this.change(changes));
@@ -191,6 +217,7 @@ class PredictTab implements TabHandle {
       correct: (error, text) => this.tryIt(() => what_if.correct(error, text)),
     });
     const view = new PieceView(scene);
+    view.onMagnified = (k) => this.app.keep("predict", { k });
     const built = {
       summary,
       view,
@@ -203,19 +230,26 @@ class PredictTab implements TabHandle {
     return built;
   }
 
+  private choosePage(page: Page): void {
+    this.showPage(page);
+    this.app.keep("predict", { page: page === "budget" ? null : page });
+  }
+
   private showPage(page: Page): void {
+    this.page = page;
     for (const [name, host] of this.pages) host.hidden = name !== page;
     for (const button of this.page_buttons.querySelectorAll("button"))
       button.setAttribute("aria-pressed", String(button.dataset.show === page));
   }
 
   private tryIt(change: () => void): void {
-    this.showPage("what-if");
+    this.choosePage("what-if");
     change();
   }
 
   private change(changes: Changes | null): void {
     if (!this.study || !this.base) return;
+    this.app.keep("predict", { what: this.piece?.what_if.state ?? null });
     if (changes) this.ask({ study: this.study, changes, asked_at: performance.now() });
     else this.draw(this.base, null);
   }

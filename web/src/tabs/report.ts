@@ -112,12 +112,24 @@ class ReportTab implements TabHandle {
     this.showFiles(params.file, params.machine ?? this.app.state.machine ?? undefined);
     if (params.standard) this.standard.value = params.standard;
     // A link that names its file asks for the report; coming back to the tab does not ask again.
-    const asked = JSON.stringify(params);
+    const asked = this.asked();
     if (params.file && asked !== this.last) void this.run();
     this.last = asked;
   }
 
+  /** What is chosen, of what the kind of report needs. */
+  private asked(): string {
+    return JSON.stringify([
+      this.verb.value,
+      this.file.value,
+      this.machine.hidden ? null : this.machine.value,
+      this.standard.hidden ? null : this.standard.value,
+    ]);
+  }
+
   hide(): void {
+    // What was being made is asked for again.
+    if (this.made === null) this.last = "";
     this.stop.abort();
   }
 
@@ -167,6 +179,13 @@ class ReportTab implements TabHandle {
       ...(verb.name === "evaluate" ? { standard: this.standard.value } : {}),
       ...(this.heading.value ? { heading: this.heading.value } : {}),
     };
+    this.last = this.asked();
+    this.app.keep("report", {
+      verb: body.verb,
+      file: body.file,
+      machine: body.machine ?? null,
+      standard: body.standard ?? null,
+    });
     this.stop.abort();
     const stop = new AbortController();
     this.stop = stop;

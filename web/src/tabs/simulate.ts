@@ -2,13 +2,17 @@
 
 import { split, type App, type Tab, type TabHandle } from "../app.ts";
 import { Refusal, type Diagnostic, type MachineDescription } from "../api.ts";
+import { numberIn, short, type Params } from "../address.ts";
 import { fill, h } from "../dom.ts";
-import { exaggerationControl } from "../scene/exaggeration.ts";
+import { keepFile, keptFile } from "../files.ts";
+import { tabKey } from "../keys.ts";
+import { Exaggeration } from "../scene/exaggeration.ts";
 import { withModels } from "../scene/models.ts";
 import { MachineView } from "../scene/view.ts";
 import { Simulation, type Job, type Moment } from "./simulate/answers.ts";
 import { Choices, dropTarget, type Choice, type Dropped } from "./simulate/choices.ts";
 import { Curves } from "./simulate/curves.ts";
+import { Find } from "./simulate/find.ts";
 import { ToolPath } from "./simulate/path.ts";
 import { Player } from "./simulate/player.ts";
 import { Readout } from "./simulate/readout.ts";
@@ -34,12 +38,20 @@ class SimulateTab implements TabHandle {
   private readonly busy = h("section", { class: "panel simulate-busy", hidden: true });
   private readonly source_head = h("div", { class: "panel-head source-head" });
   private readonly source = new SourceList((line) => this.toLine(line));
+  private readonly find = new Find({
+    find: (text, step) => this.source.find(text, step),
+    go: (line) => this.toLine(line),
+    closed: () => this.source.focus(),
+  });
   private readonly readout = new Readout(() => this.whyHere());
   private readonly why: WhyHere;
   private readonly player: Player;
   private readonly transport: Transport;
   private readonly timeline: Timeline;
   private readonly path: ToolPath;
+  private readonly exaggeration: Exaggeration;
+  /** What the address says of the simulation that is on its way. */
+  private wanted: Params = {};
   private readonly curves: Curves;
   private choice: Choice = { machine: null, program: null, setup: null, control: null };
   private dropped: Dropped | null = null;
@@ -72,10 +84,17 @@ class SimulateTab implements TabHandle {
     });
     this.transport = new Transport(this.player);
     this.timeline = new Timeline((t) => this.player.seek(t));
-    this.path = new ToolPath(this.view, (e) => this.failed(e));
+    this.path = new ToolPath(
+      this.view,
+      (e) => this.failed(e),
+      () => this.keepState(),
+    );
+    this.exaggeration = new Exaggeration(this.view, () => this.keepState());
+    this.view.onView = (view) => this.app.keep("simulate", { view: view === "iso" ? null : view });
     this.curves = new Curves({
       seek: (t) => this.player.seek(t),
       zoomed: (window_s) => this.zoomed(window_s),
+      chosen: () => this.keepState(),
       failed: (e) => this.failed(e),
     });
     this.choices = new Choices(
@@ -85,14 +104,20 @@ class SimulateTab implements TabHandle {
     );
     this.why = new WhyHere(app);
     this.setup = new SetUpDialog(app, (path) => this.setUpSaved(path));
-    left.append(h("div", { class: "scene-bottom" }, this.path.control, exaggerationControl(this.view)));
+    left.append(h("div", { class: "scene-bottom" }, this.path.control, this.exaggeration.element));
     right.classList.add("simulate-side");
     fill(
       right,
       this.choices.element,
       this.busy,
       this.summary.element,
-      h("section", { class: "panel simulate-source", ariaLabel: "Source" }, this.source_head, this.source.element),
+      h(
+        "section",
+        { class: "panel simulate-source", ariaLabel: "Source" },
+        this.source_head,
+        this.find.element,
+        this.source.element,
+      ),
       this.readout.element,
       this.why.element,
     );
@@ -109,7 +134,7 @@ class SimulateTab implements TabHandle {
     );
     dropTarget(host, (file) => void this.choices.take(file));
     document.addEventListener("keydown", (event) => {
-      if (this.in_sight && this.simulation) this.transport.key(event);
+      if (this.in_sight && this.simulation && (this.transport.key(event) || this.key(event))) event.preventDefault();
     });
     document.addEventListener("visibilitychange", () => {
       if (document.hidden) this.player.pause();
@@ -118,8 +143,13 @@ class SimulateTab implements TabHandle {
 
   // ---- what to simulate ----
 
-  open(params: Readonly<Record<string, string>>): void {
+  open(params: Params): void {
     this.in_sight = true;
+    void this.openWith(params).catch((error) => this.app.fail(error));
+  }
+
+  private async openWith(params: Params): Promise<void> {
+    const { folder = "" } = this.app.state.project ?? {};
     if (window.trueaxisScene) window.trueaxisScene.moment = () => this.moment;
     const first = this.app.state.project?.files.find((f) => f.kind === "machine")?.path ?? null;
     const machine = params.machine ?? this.app.state.machine ?? first;
@@ -127,6 +157,10 @@ class SimulateTab implements TabHandle {
     const goes_on = !params.program && !params.dropped;
     const fresh = takeDropped();
     if (fresh) this.keep(fresh);
+    if (params.dropped && !this.kept.has(params.dropped)) {
+      const file = await keptFile(folder, params.dropped);
+      if (file) this.kept.set(file.name, file);
+    }
     const dropped = goes_on ? this.dropped : (this.kept.get(params.dropped ?? "") ?? null);
     const choice: Choice = goes_on
       ? { ...this.choice, machine }
@@ -136,13 +170,20 @@ class SimulateTab implements TabHandle {
           setup: params.setup ?? null,
           control: params.control ?? null,
         };
-    if (dropped === this.dropped && JSON.stringify(choice) === JSON.stringify(this.choice)) return;
+    if (dropped === this.dropped && JSON.stringify(choice) === JSON.stringify(this.choice)) {
+      if (this.simulation) this.takeState(params);
+      else this.wanted = params;
+      return;
+    }
+    this.wanted = params;
     this.choice = choice;
     this.dropped = dropped;
     this.choices.show(choice, dropped);
+    // The machine that was open: a copied link names it, too.
+    this.app.keep("simulate", { machine });
     if (params.dropped && !dropped)
       this.app.fail(
-        new Refusal("dropped-file", `${params.dropped} was open only in the window before`, "Drop it here again."),
+        new Refusal("dropped-file", `${params.dropped} is not kept by this browser any more`, "Drop it here again."),
       );
     void this.run();
   }
@@ -171,6 +212,7 @@ class SimulateTab implements TabHandle {
   private keep(dropped: Dropped): void {
     this.kept.delete(dropped.name);
     this.kept.set(dropped.name, dropped);
+    void keepFile(this.app.state.project?.folder ?? "", dropped);
     const [oldest] = this.kept.keys();
     if (this.kept.size > 4 && oldest) this.kept.delete(oldest);
   }
@@ -269,6 +311,7 @@ class SimulateTab implements TabHandle {
     this.drawn = drawn;
     this.stated_errors = description.check.errors?.length ?? 0;
     this.view.setMachine(drawn);
+    if (this.wanted.view) this.view.setView(this.wanted.view);
   }
 
   private async simulate(job: Job, stop: AbortController): Promise<Simulation> {
@@ -313,8 +356,27 @@ class SimulateTab implements TabHandle {
     this.path.setSimulation(simulation);
     this.curves.setSimulation(simulation);
     await this.showProgram(0);
-    this.player.seek(0);
+    if (numberIn(this.wanted.t) === null) this.player.seek(0);
+    this.takeState(this.wanted);
+    this.wanted = {};
+    this.keepState();
     this.app.say("");
+  }
+
+  // ---- the address ----
+
+  /** What the address says of how the simulation is shown; what it does not say stays. */
+  private takeState(params: Params): void {
+    this.exaggeration.take(params);
+    this.path.take(params.by);
+    this.curves.take(params.curves);
+    if (params.view) this.view.setView(params.view);
+    const time_s = numberIn(params.t);
+    if (time_s !== null && short(time_s, 4) !== short(this.moment?.time_s ?? 0, 4)) this.player.seek(time_s);
+  }
+
+  private keepState(): void {
+    this.app.keep("simulate", { ...this.exaggeration.state, by: this.path.state, curves: this.curves.state });
   }
 
   /** Shows the source with the errors underlined, and what is wrong. */
@@ -378,7 +440,9 @@ class SimulateTab implements TabHandle {
       errors > 0
         ? h("span", { class: "source-errors" }, errors === 1 ? "1 place underlined" : `${errors} places underlined`)
         : null,
+      this.find.button,
     );
+    this.find.clear();
     this.source.show(text, notes);
   }
 
@@ -386,6 +450,35 @@ class SimulateTab implements TabHandle {
     const { simulation } = this;
     const program = this.shown_program;
     if (simulation) this.player.goWhere(() => simulation.timeOf(program, line));
+  }
+
+  // ---- keys ----
+
+  /** The keys of the tab beside those of the player; true if this was one. */
+  private key(event: KeyboardEvent): boolean {
+    const key = tabKey(event);
+    if (key === "g") this.find.open("line");
+    else if (key === "/") this.find.open("text");
+    else if (key === "n") this.toIssue(event.shiftKey ? -1 : 1);
+    else return false;
+    return true;
+  }
+
+  /** The next or the previous collision or over-travel, around the ends; of a program without, the next remark. */
+  private toIssue(step: 1 | -1): void {
+    const all = this.simulation?.header.marks ?? [];
+    const marks = (all.some((m) => m.grave) ? all.filter((m) => m.grave) : all).toSorted((a, b) => a.time_s - b.time_s);
+    const now_s = this.moment?.time_s ?? 0;
+    const next =
+      step > 0
+        ? (marks.find((m) => m.time_s > now_s + 1e-9) ?? marks[0])
+        : (marks.findLast((m) => m.time_s < now_s - 1e-9) ?? marks.at(-1));
+    if (next) this.player.seek(next.time_s);
+    this.app.say(
+      next
+        ? `${marks.indexOf(next) + 1} of ${marks.length}: ${next.text}, line ${next.line}`
+        : "No issue in this program",
+    );
   }
 
   // ---- the moment ----
@@ -402,6 +495,7 @@ class SimulateTab implements TabHandle {
     const { moment } = frame.header;
     const [nominal, actual] = [frame.f64("nominal"), frame.f64("actual")];
     this.moment = moment;
+    this.app.keep("simulate", { t: time_s > 0 ? short(time_s, 4) : null });
     this.showTool(moment, nominal);
     this.view.setPoses(nominal, actual);
     this.path.setTime(time_s);

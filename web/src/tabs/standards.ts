@@ -3,7 +3,9 @@
 import type { ServeEvaluate, StandardEntry } from "../../types.d.ts";
 import type { Request } from "../api.ts";
 import { diagnosticList, split, type App, type Tab, type TabHandle } from "../app.ts";
+import type { Params } from "../address.ts";
 import { fill, h } from "../dom.ts";
+import { keepFile, keptFile } from "../files.ts";
 import type { Figure } from "../figure/index.ts";
 import type { Frame } from "../frame.ts";
 import { NARROW_SPACE, number } from "../format.ts";
@@ -40,6 +42,11 @@ function formOf(name: string): string {
   return /\.qif$/i.test(name) ? "qif" : /\.md$/i.test(name) ? "ecmc-md" : "csv";
 }
 
+/** What the server is asked for; the machine is of the other tabs. */
+function asked({ machine: _, ...rest }: Params): string {
+  return JSON.stringify(rest);
+}
+
 class StandardsTab implements TabHandle {
   private readonly app: App;
   private readonly head = h("section", { class: "panel form" });
@@ -53,6 +60,8 @@ class StandardsTab implements TabHandle {
   private conditions: string | null = null;
   private standard = "iso230-2";
   private shown = false;
+  /** The address that the answer on the page is of. */
+  private last = "";
   private params: Readonly<Record<string, string>> = {};
 
   constructor(host: HTMLElement, app: App) {
@@ -72,11 +81,16 @@ class StandardsTab implements TabHandle {
       return;
     }
     // Coming back by the tab shows what was there.
-    if (!params.path && !params.dropped && this.shown) return;
+    if (this.shown && (asked(params) === this.last || (!params.path && !params.dropped))) return;
+    void this.openWith(params);
+  }
+
+  private async openWith(params: Params): Promise<void> {
     this.params = params;
-    if (!params.path && params.dropped && this.dropped?.name !== params.dropped) this.dropped = null;
     if (params.path) this.dropped = null;
-    void this.run();
+    else if (params.dropped && this.dropped?.name !== params.dropped)
+      this.dropped = await keptFile(this.app.state.project?.folder ?? "", params.dropped);
+    if (params === this.params) void this.run();
   }
 
   hide(): void {
@@ -89,6 +103,8 @@ class StandardsTab implements TabHandle {
 
   private take(file: TextFile): void {
     this.dropped = file;
+    this.last = "";
+    void keepFile(this.app.state.project?.folder ?? "", file);
     // The same name again may be another text: `go` routes again even if the address stays.
     this.app.go("standards", { dropped: file.name });
   }
@@ -119,7 +135,7 @@ class StandardsTab implements TabHandle {
               "p",
               {},
               params.dropped
-                ? `Drop ${params.dropped} again: the page was loaded again and does not keep files.`
+                ? `${params.dropped} is not kept by this browser any more: drop it again.`
                 : "Choose readings above, or drop a CSV anywhere here. Nothing leaves this computer.",
             ),
           ),
@@ -273,6 +289,7 @@ class StandardsTab implements TabHandle {
     const { document, text, pictures, conditions_file, diagnostics } = frame.header;
     this.clear();
     this.shown = true;
+    this.last = asked(this.params);
     this.conditions = conditions_file;
     const circle =
       kindOf(document) === "circular"

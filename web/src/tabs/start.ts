@@ -2,7 +2,9 @@
 
 import type { App, Tab, TabHandle } from "../app.ts";
 import { Refusal, type Example, type FileKind, type Project, type ProjectFile } from "../api.ts";
+import { hashOf } from "../address.ts";
 import { fill, h } from "../dom.ts";
+import { keptFiles, MOST_BYTES, MOST_FILES, removeFile } from "../files.ts";
 import { bytes } from "../format.ts";
 
 const VERBS: readonly [string, string, string][] = [
@@ -155,6 +157,41 @@ async function take(app: App, file: File | undefined): Promise<void> {
   app.go(tab, { dropped: file.name });
 }
 
+/** The dropped files that this browser keeps, each with a button that removes it. */
+async function showKept(app: App, place: HTMLElement): Promise<void> {
+  const { folder = "" } = app.state.project ?? {};
+  const files = await keptFiles(folder);
+  place.hidden = files.length === 0;
+  const row = ({ name, bytes: size }: (typeof files)[number]): HTMLElement => {
+    const tab = ENDINGS.find(([ending]) => ending.test(name))?.[1] ?? "simulate";
+    const remove = async (): Promise<void> => {
+      await removeFile(folder, name);
+      await showKept(app, place);
+    };
+    return h(
+      "tr",
+      {},
+      h("td", {}, h("a", { href: hashOf(tab, { dropped: name }) }, name)),
+      h("td", { class: "number muted" }, bytes(size)),
+      h(
+        "td",
+        { class: "number" },
+        h("button", { ariaLabel: `Remove ${name}`, onclick: () => void remove() }, "Remove"),
+      ),
+    );
+  };
+  fill(
+    place,
+    h("h3", {}, "Dropped files"),
+    h(
+      "p",
+      { class: "muted" },
+      `Kept by this browser for a reload, at most ${MOST_FILES} files and ${bytes(MOST_BYTES)}; the oldest go first.`,
+    ),
+    h("table", {}, h("tbody", {}, files.map(row))),
+  );
+}
+
 function dropZone(app: App): HTMLElement {
   const input = h("input", {
     type: "file",
@@ -190,6 +227,7 @@ export const start: Tab = {
   title: "Start",
   mount(host: HTMLElement, app: App): TabHandle {
     let shown: Project | null = null;
+    const kept = h("section", { class: "kept-files", dataTest: "kept", hidden: true });
     const left = h("div", { class: "start-examples" });
     const right = h("div", { class: "start-files" });
     fill(host, h("div", { class: "start" }, left, right));
@@ -211,9 +249,11 @@ export const start: Tab = {
         h("h2", {}, "Files of this folder"),
         h("p", { class: "muted path" }, project.folder),
         dropZone(app),
+        kept,
         files(app, project),
       );
+      void showKept(app, kept);
     });
-    return {};
+    return { open: () => void showKept(app, kept) };
   },
 };

@@ -15,6 +15,15 @@ export function positionsOf(text: string): Positions {
   );
 }
 
+/** The positions for the address; null where all axes stand where they begin. */
+export function positionsText(at: Positions, links: readonly Link[]): string | null {
+  const moved = Object.entries(startPositions(links)).some(([name, value]) => (at[name] ?? value) !== value);
+  if (!moved) return null;
+  return Object.entries(at)
+    .map(([name, value]) => `${name}=${value}`)
+    .join(",");
+}
+
 /** 0, or the end of the travel next to it. */
 function startPositions(links: readonly Link[]): Positions {
   const positions: Positions = {};

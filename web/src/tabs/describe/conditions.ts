@@ -1,7 +1,9 @@
 /** Under which conditions the pose is taken: the tool in the spindle, and what the sensors say. */
 
 import type { Sensor, ToolEntry, ToolShape } from "../../api.ts";
+import { numberIn, type Params } from "../../address.ts";
 import { fill, h } from "../../dom.ts";
+import { positionsOf } from "./axes.ts";
 
 export interface Conditions {
   /** null: the tool of the machine file. */
@@ -30,6 +32,19 @@ export class ConditionFields {
 
   constructor(changed: () => void) {
     this.changed = changed;
+  }
+
+  /** For the address: "X=10,C=45" of the command line, but of sensors; and the tool. */
+  get state(): { tool: string | null; celsius: string | null } {
+    const { tool_length_mm, celsius } = this.now;
+    const words = Object.entries(celsius).map(([name, value]) => `${name}=${value}`);
+    return { tool: tool_length_mm === null ? null : String(tool_length_mm), celsius: words.join(",") || null };
+  }
+
+  /** As an address says, before the fields are shown. */
+  take({ tool, celsius }: Params): void {
+    this.now.tool_length_mm = numberIn(tool);
+    this.now.celsius = positionsOf(celsius ?? "");
   }
 
   /** Another machine: nothing is set. */

@@ -1,6 +1,7 @@
 /** All errors of the machine: search, filter by body, sort, edit in place. */
 
 import type { ErrorEntry, Link, PoseDocument } from "../../api.ts";
+import type { Params } from "../../address.ts";
 import { fill, h } from "../../dom.ts";
 import type { Positions } from "./axes.ts";
 import { ErrorRow, sizeOf, type RowActions } from "./row.ts";
@@ -45,15 +46,21 @@ export class ErrorTable {
     class: "error-search",
     placeholder: "Search: EC0Y, tilt, Z …",
     ariaLabel: "Search errors",
-    oninput: () => this.filter(),
+    oninput: () => this.filterAnew(),
   });
-  private readonly of_body = h("select", { ariaLabel: "Errors of", onchange: () => this.filter() });
-  private readonly all = h("input", { type: "checkbox", onchange: () => this.filter() });
+  private readonly of_body = h("select", { ariaLabel: "Errors of", onchange: () => this.filterAnew() });
+  private readonly all = h("input", { type: "checkbox", onchange: () => this.filterAnew() });
   private readonly count = h("span", { class: "muted" });
   private readonly actions: RowActions;
+  /** The user filters or sorts otherwise. */
+  private readonly changed: () => void;
+  /** What an address asks for before the errors are there. */
+  private wanted: Params | null = null;
+  private chosen = "";
 
-  constructor(actions: RowActions) {
-    this.actions = actions;
+  constructor(actions: RowActions, changed: () => void) {
+    this.actions = { ...actions, chosen: (error) => this.choose(error, () => actions.chosen(error)) };
+    this.changed = changed;
     fill(
       this.element,
       h(
@@ -98,7 +105,57 @@ export class ErrorTable {
     this.links = links;
     errors.forEach((error, i) => this.rows[i]?.update(error, links));
     if (!same) this.sort();
+    const { wanted } = this;
+    this.wanted = null;
+    if (wanted) this.take(wanted, false);
+    else this.filter();
+  }
+
+  private filterAnew(): void {
     this.filter();
+    this.changed();
+  }
+
+  private choose(error: string, then: () => void): void {
+    if (error === this.chosen) return;
+    this.chosen = error;
+    this.showChosen();
+    then();
+  }
+
+  private showChosen(): void {
+    for (const row of this.rows) row.element.classList.toggle("chosen", row.error.name === this.chosen);
+  }
+
+  /** For the address: what is searched, of which body, in which order, and the error that is worked on. */
+  get state(): Record<string, string | null> {
+    return {
+      find: this.search.value || null,
+      of: this.of_body.value || null,
+      all: this.all.checked ? "true" : null,
+      sort: this.key === "chain" ? null : this.key,
+      error: this.chosen || null,
+    };
+  }
+
+  /** As an address says; what it does not name is as at the beginning. `later`: of a machine that is on its way. */
+  take(wanted: Params, later: boolean): void {
+    if (later || this.rows.length === 0) {
+      this.wanted = wanted;
+      return;
+    }
+    this.search.value = wanted.find ?? "";
+    this.of_body.value = this.links.some((link) => link.name === wanted.of) ? (wanted.of as string) : "";
+    this.all.checked = wanted.all === "true";
+    const key = HEADS.find((head) => head.key !== null && head.key === wanted.sort)?.key ?? "chain";
+    if (key !== this.key) {
+      this.key = key;
+      this.sort();
+    }
+    this.chosen = wanted.error ?? "";
+    this.showChosen();
+    this.filter();
+    this.rows.find((row) => row.error.name === this.chosen)?.element.scrollIntoView({ block: "center" });
   }
 
   /** What every error does at the present position, and where that is on its curve. */
@@ -151,6 +208,7 @@ export class ErrorTable {
         const by = (): void => {
           this.key = key;
           this.sort();
+          this.changed();
         };
         return h(
           "th",

@@ -11,14 +11,23 @@ export interface Page {
 export interface Pages {
   element: HTMLElement;
   go(name: string): void;
+  /** The page that is shown. */
+  now(): string;
 }
 
-/** `left` is called before another page is shown. */
-export function pages(list: readonly Page[], left: () => void): Pages {
+/** `left` is called before another page is shown, `shown` after it. */
+export function pages(list: readonly Page[], left: () => void, shown: () => void): Pages {
+  let now = list[0]?.name ?? "";
   const buttons = list.map(({ name, title }) =>
     h(
       "button",
-      { role: "tab", id: `page-tab-${name}`, dataPage: name, "aria-controls": `page-${name}`, onclick: () => go(name) },
+      {
+        role: "tab",
+        id: `page-tab-${name}`,
+        dataPage: name,
+        "aria-controls": `page-${name}`,
+        onclick: () => choose(name),
+      },
       title,
     ),
   );
@@ -27,7 +36,9 @@ export function pages(list: readonly Page[], left: () => void): Pages {
   );
   const strip = h("div", { class: "pages-strip", role: "tablist", ariaLabel: "Pages of the machine" }, buttons);
   const go = (name: string): void => {
+    if (!list.some((page) => page.name === name)) return;
     left();
+    now = name;
     list.forEach((page, i) => {
       const here = page.name === name;
       buttons[i]?.setAttribute("aria-selected", String(here));
@@ -35,14 +46,19 @@ export function pages(list: readonly Page[], left: () => void): Pages {
       if (hosts[i]) hosts[i].hidden = !here;
     });
   };
+  const choose = (name: string): void => {
+    go(name);
+    shown();
+  };
   strip.addEventListener("keydown", (event) => {
-    const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
     const at = buttons.indexOf(document.activeElement as HTMLButtonElement);
-    if (step === undefined || at < 0) return;
-    const next = buttons[(at + step + buttons.length) % buttons.length];
+    const to = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: buttons.length - 1 }[event.key];
+    if (to === undefined || at < 0) return;
+    event.preventDefault();
+    const next = buttons[(to + buttons.length) % buttons.length];
     next?.focus();
     next?.click();
   });
-  go(list[0]?.name ?? "");
-  return { element: h("div", { class: "pages" }, strip, hosts), go };
+  go(now);
+  return { element: h("div", { class: "pages" }, strip, hosts), go, now: () => now };
 }

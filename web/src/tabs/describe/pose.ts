@@ -62,7 +62,7 @@ export class PosePanels {
     const heads = h(
       "tr",
       {},
-      h("th", {}),
+      h("td", {}),
       ["X", "Y", "Z", "length"].map((name) => h("th", { class: "number" }, name)),
     );
     const row = (test: string, name: string, values: HTMLElement[], last = "", deviation = false): HTMLElement =>

@@ -4,6 +4,7 @@ import { Refusal, type ErrorEntry, type Link } from "../../api.ts";
 import { fill, h } from "../../dom.ts";
 import { markedSparkline, type Sparkline } from "../../figure/sparkline.ts";
 import { NARROW_SPACE, NO_NUMBER, number, withUnit } from "../../format.ts";
+import { explain } from "../../glossary/glossary.ts";
 import { errorWords, unitText } from "./words.ts";
 
 export interface RowActions {
@@ -11,6 +12,8 @@ export interface RowActions {
   commit(error: string, text: string): Promise<void>;
   goTo(line: number): void;
   hovered(body: string | null): void;
+  /** The user works on this error. */
+  chosen(error: string): void;
 }
 
 /** "−12.0 µm", or of a curve "−4.0 … 12.0 µm". */
@@ -64,9 +67,19 @@ export class ErrorRow {
     this.box.addEventListener("keydown", (event) => event.key === "Escape" && this.restore());
     this.name.addEventListener("click", () => this.error.line !== null && this.actions.goTo(this.error.line));
     this.element.dataset.row = error.name;
+    this.element.addEventListener("focusin", () => this.actions.chosen(this.error.name));
     fill(
       this.element,
-      h("td", {}, this.name),
+      h(
+        "td",
+        { class: "error-head" },
+        this.name,
+        h(
+          "button",
+          { class: "error-info", ariaLabel: `${error.name}: what it is`, onclick: () => explain(error.name) },
+          "?",
+        ),
+      ),
       this.words,
       this.value,
       this.uncertainty,

@@ -2,14 +2,15 @@
 
 import { diagnosticList, split, type App, type TabHandle } from "../../app.ts";
 import { latestOnly, Refusal, type Description, type Diagnostic, type PoseHeader } from "../../api.ts";
+import type { Params } from "../../address.ts";
 import { fill, h, perFrame } from "../../dom.ts";
 import { chainPicture, type ChainSpec } from "../../figure/chain.ts";
 import type { Figure } from "../../figure/figure.ts";
 import type { Frame } from "../../frame.ts";
-import { exaggerationControl } from "../../scene/exaggeration.ts";
+import { Exaggeration } from "../../scene/exaggeration.ts";
 import { withModels } from "../../scene/models.ts";
 import { MachineView } from "../../scene/view.ts";
-import { Axes, keptPositions, positionsOf } from "./axes.ts";
+import { Axes, keptPositions, positionsOf, positionsText } from "./axes.ts";
 import { ConditionFields, temperatureText } from "./conditions.ts";
 import { Draft } from "./draft.ts";
 import { ErrorTable } from "./errors.ts";
@@ -35,11 +36,15 @@ export class DescribeTab implements TabHandle {
   private readonly conditions = new ConditionFields(() => this.conditionsChanged());
   private readonly pose = new PosePanels();
   private readonly findings = h("section", { class: "panel" });
-  private readonly errors = new ErrorTable({
-    commit: (error, text) => this.setError(error, text),
-    goTo: (line) => this.goToLine(line),
-    hovered: (body) => this.view.highlight(body),
-  });
+  private readonly errors = new ErrorTable(
+    {
+      commit: (error, text) => this.setError(error, text),
+      goTo: (line) => this.goToLine(line),
+      hovered: (body) => this.view.highlight(body),
+      chosen: () => this.keepState(),
+    },
+    () => this.keepState(),
+  );
   private readonly file = new FileText((text) => this.edit(text));
   private readonly pages = pages(
     [
@@ -52,7 +57,11 @@ export class DescribeTab implements TabHandle {
       { name: "file", title: "File", parts: [this.file.element] },
     ],
     () => this.file.flush(),
+    () => this.keepState(),
   );
+  private readonly exaggeration: Exaggeration;
+  /** A view of the address, for the machine that is on its way. */
+  private wanted_view: string | null = null;
   /** Edits of every file that was open here: choosing another one loses none. */
   private readonly drafts = new Map<string, Draft>();
   private draft: Draft | null = null;
@@ -82,7 +91,9 @@ export class DescribeTab implements TabHandle {
     this.app = app;
     const { left, right } = split(host, "describe", 0.55);
     this.view = new MachineView(left);
-    left.append(h("div", { class: "scene-bottom" }, exaggerationControl(this.view)));
+    this.exaggeration = new Exaggeration(this.view, () => this.keepState());
+    this.view.onView = (view) => this.app.keep("describe", { view: view === "iso" ? null : view });
+    left.append(h("div", { class: "scene-bottom" }, this.exaggeration.element));
     fill(right, h("div", { class: "describe-panel" }, this.head.element, this.pages.element));
     addEventListener("keydown", (event) => this.key(event));
     addEventListener("beforeunload", (event) => {
@@ -106,8 +117,26 @@ export class DescribeTab implements TabHandle {
       );
       return;
     }
-    if (wanted !== this.draft?.path) void this.load(wanted, params.at);
-    else if (params.at && this.described) this.moveTo(this.described, params.at);
+    this.exaggeration.take(params);
+    if (params.page) this.pages.go(params.page);
+    this.errors.take(params, wanted !== this.draft?.path);
+    if (wanted !== this.draft?.path) void this.load(wanted, params);
+    else {
+      if (params.view) this.view.setView(params.view);
+      if (params.at && this.described) this.moveTo(this.described, params.at);
+    }
+  }
+
+  /** What is shown, in the address. */
+  private keepState(): void {
+    const page = this.pages.now();
+    this.app.keep("describe", {
+      machine: this.draft?.path,
+      page: page === "machine" ? null : page,
+      ...this.errors.state,
+      ...this.exaggeration.state,
+      ...this.conditions.state,
+    });
   }
 
   /** A file was saved elsewhere, or news was missed: is ours still as we know it? */
@@ -130,7 +159,7 @@ export class DescribeTab implements TabHandle {
     return new Set([...this.drafts.values()].filter((d) => d.dirty).map((d) => d.path));
   }
 
-  private async load(path: string, at?: string): Promise<void> {
+  private async load(path: string, params: Params): Promise<void> {
     this.file.flush();
     try {
       let draft = this.drafts.get(path);
@@ -147,7 +176,9 @@ export class DescribeTab implements TabHandle {
       this.usable_text = this.name = "";
       this.scene_key = this.links_key = "";
       this.conditions.reset();
-      this.axes.at = positionsOf(at ?? "");
+      this.conditions.take(params);
+      this.axes.at = positionsOf(params.at ?? "");
+      this.wanted_view = params.view ?? null;
       this.refresh();
     } catch (error) {
       this.app.fail(error);
@@ -301,6 +332,7 @@ export class DescribeTab implements TabHandle {
       files: this.machineFiles(),
       dirty: this.dirtyPaths(),
     });
+    this.app.unsaved("describe", [...this.dirtyPaths()]);
   }
 
   private async showDescription(description: Description): Promise<void> {
@@ -368,6 +400,8 @@ export class DescribeTab implements TabHandle {
       );
       if (key !== this.scene_key) return;
       this.view.setMachine(machine, same_file);
+      if (this.wanted_view) this.view.setView(this.wanted_view);
+      this.wanted_view = null;
       this.showFindings(description, diagnostics);
     } catch (error) {
       this.app.fail(error);
@@ -412,6 +446,7 @@ export class DescribeTab implements TabHandle {
   private sendPose(): void {
     const { draft, conditions } = this;
     if (!draft || !this.described || this.usable_text === "") return;
+    this.app.keep("describe", { at: positionsText(this.axes.at, this.described.links), ...conditions.state });
     this.poseLatest({
       machine: draft.path,
       text: this.usable_text,

@@ -4,6 +4,7 @@ import { diagnosticList } from "../../app.ts";
 import { h } from "../../dom.ts";
 import { bars, type Bar, type BarSpec, type Figure } from "../../figure/index.ts";
 import { number, withUnit } from "../../format.ts";
+import { withErrorNames } from "../../glossary/glossary.ts";
 import { sheetTable, type Sheet } from "../measure/table.ts";
 import { count } from "../measure/words.ts";
 import {
@@ -73,7 +74,7 @@ export function scorePanel(doc: IdentifyDocument): HTMLElement {
         h(
           "tr",
           {},
-          h("th", {}),
+          h("td", {}),
           h("th", {}, h("span", { class: "visually-hidden" }, "Bar")),
           units.map((unit) => h("th", { class: "number" }, unit === "um" ? "µm" : "µrad")),
           h("th", { class: "number" }, "× noise"),
@@ -172,9 +173,9 @@ export function confoundedPanel(unobservable: readonly Unobservable[], good: str
             h(
               "li",
               {},
-              h("p", {}, one.words),
+              h("p", {}, withErrorNames(one.words)),
               one.resolve_with ? h("p", { class: "muted" }, `What would tell: ${one.resolve_with}`) : null,
-              h("p", { class: "muted" }, h("code", {}, one.combination)),
+              h("p", { class: "muted" }, h("code", {}, withErrorNames(one.combination))),
             ),
           ),
         ),

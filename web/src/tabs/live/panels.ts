@@ -159,7 +159,7 @@ export function sensorsPanel(last: LiveState): HTMLElement | null {
           h("th", {}, "sensor"),
           h("th", { class: "number" }, "temperature"),
           h("th", { class: "number" }, "age"),
-          h("th", {}, ""),
+          h("th", {}, h("span", { class: "visually-hidden" }, "fault")),
         ),
       ),
       h(

@@ -49,7 +49,7 @@ export class SheetView {
       h(
         "table",
         { ariaLabel: `Readings of ${sheet.header.instrument}` },
-        h("thead", {}, h("tr", {}, h("th", { class: "number", scope: "col" }, "No."), head, h("th", { scope: "col" }))),
+        h("thead", {}, h("tr", {}, h("th", { class: "number", scope: "col" }, "No."), head, h("td", {}))),
         h("tbody", {}, rows),
       ),
     );

@@ -1,6 +1,7 @@
 /** The report of a command on the page: verdict, sentences, tables, as the server sends them. */
 
 import type { ServeVerify } from "../../../types.d.ts";
+import { withErrorNames } from "../../glossary/glossary.ts";
 import { diagnosticList } from "../../app.ts";
 import type { Diagnostic } from "../../api.ts";
 import { download, h, type Child } from "../../dom.ts";
@@ -65,7 +66,7 @@ function tableOf(title: string, table: ShownTable): HTMLElement {
             h(
               "tr",
               {},
-              headings.map((text, j) => h("th", { class: aligned(j) }, text)),
+              headings.map((text, j) => h(text ? "th" : "td", { class: aligned(j) }, text)),
             ),
           )
         : null,
@@ -76,7 +77,7 @@ function tableOf(title: string, table: ShownTable): HTMLElement {
           h(
             "tr",
             {},
-            row.map((cell, j) => h("td", { class: aligned(j) }, cellText(cell))),
+            row.map((cell, j) => h("td", { class: aligned(j) }, withErrorNames(cellText(cell)))),
           ),
         ),
       ),

@@ -3,6 +3,7 @@
 import { download, h } from "../../dom.ts";
 import { csvOf, fileName } from "../../figure/figure.ts";
 import { number } from "../../format.ts";
+import { withErrorNames } from "../../glossary/glossary.ts";
 
 export type Cell = string | number | null;
 
@@ -21,7 +22,7 @@ export interface Sheet {
 }
 
 function cell(value: Cell, digits: number, hint?: string): HTMLElement {
-  if (typeof value === "string") return h("td", { title: hint }, value);
+  if (typeof value === "string") return h("td", { title: hint }, withErrorNames(value));
   return h("td", { class: "number" }, number(value, digits));
 }
 
@@ -57,7 +58,7 @@ export function sheetTable(sheet: Sheet): HTMLElement {
           h(
             "tr",
             {},
-            sheet.head.map((text, j) => h("th", { class: columnIsText(sheet, j) ? "" : "number" }, text)),
+            sheet.head.map((text, j) => h(text ? "th" : "td", { class: columnIsText(sheet, j) ? "" : "number" }, text)),
           ),
         ),
         h(

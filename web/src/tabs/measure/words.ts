@@ -1,6 +1,8 @@
 /** Units and numbers as the tables of TrueAxis write them. */
 
-import { number, NO_NUMBER, NARROW_SPACE } from "../../format.ts";
+import { number, NO_NUMBER } from "../../format.ts";
+
+export { duration } from "../../format.ts";
 
 /** Units of the documents as shown. */
 export function unitText(unit: string): string {
@@ -12,15 +14,6 @@ export function significant(value: number | null | undefined, figures = 3): stri
   if (value === null || value === undefined || !Number.isFinite(value)) return NO_NUMBER;
   const power = value === 0 ? 0 : Math.floor(Math.log10(Math.abs(value)));
   return number(value, Math.min(12, Math.max(0, figures - 1 - power)));
-}
-
-/** "5 min 13.6 s". */
-export function duration(time_s: number): string {
-  // Rounded first: not "1 min 60.0 s".
-  const tenths = Math.round(10 * time_s);
-  if (tenths < 600) return `${number(time_s, 1)}${NARROW_SPACE}s`;
-  const minutes = Math.floor(tenths / 600);
-  return `${minutes}${NARROW_SPACE}min ${number((tenths - 600 * minutes) / 10, 1)}${NARROW_SPACE}s`;
 }
 
 /** "1 path", "4 paths". */

@@ -4,6 +4,7 @@ import { fill, h } from "../../dom.ts";
 import { bars, type BarSpec } from "../../figure/bars.ts";
 import type { Figure } from "../../figure/figure.ts";
 import { number, um, urad } from "../../format.ts";
+import { errorLink } from "../../glossary/glossary.ts";
 import { indicesOf, titleOf, worstOf, type Correction, type PieceDocument, type Share } from "./types.ts";
 
 type Group = "blame" | "blame_by_body" | "blame_by_kind";
@@ -119,7 +120,7 @@ export class ErrorBudget {
       return h(
         "tr",
         { dataCorrection: one.error },
-        h("td", {}, h("strong", {}, one.error)),
+        h("td", {}, h("strong", {}, errorLink(one.error))),
         h("td", { class: "number" }, text),
         judged.map((j) => h("td", { class: "number" }, number(1e3 * (one.indices_mm[j.index] ?? NaN), 1))),
         h(
@@ -152,7 +153,7 @@ export class ErrorBudget {
               h("th", {}, "shim"),
               h("th", { class: "number" }, "by"),
               judged.map((j) => h("th", { class: "number" }, titleOf(j.index))),
-              h("th", {}),
+              h("th", {}, h("span", { class: "visually-hidden" }, "try it")),
             ),
           ),
           h("tbody", {}, all.slice(0, 6).map(row)),

@@ -41,16 +41,20 @@ export class DeviationMap {
     step: "1",
     class: "exaggeration",
     ariaLabel: "Magnification of the deviations",
-    oninput: () => this.magnify(Number(this.slider.value)),
+    oninput: () => this.magnifyAnew(),
   });
   private mesh: InstancedMesh | null = null;
   private frame: Frame<DrawingHeader> | null = null;
   /** The number of the feature of each point. */
   private owner = new Uint32Array();
   private marked: ReadonlySet<number> | null = null;
+  /** The point that is explained. */
+  private picked = 0;
   private most = 1;
   private range = 1;
   private k = 1;
+  /** The user moved the slider. */
+  onMagnified: (state: string | null) => void = () => {};
 
   constructor(host: HTMLElement) {
     const scene = h("div", { class: "predict-scene" });
@@ -69,7 +73,36 @@ export class DeviationMap {
       h(
         "div",
         { class: "scene-bottom" },
-        h("div", { class: "scene-control" }, "deviations", this.slider, this.factor_text, save),
+        h(
+          "div",
+          { class: "scene-control" },
+          h(
+            "span",
+            { class: "group", role: "group", ariaLabel: "Points, the largest deviation first" },
+            h(
+              "button",
+              {
+                ariaLabel: "Larger deviation",
+                title: "The point before, of larger deviation",
+                onclick: () => this.step(-1),
+              },
+              "‹",
+            ),
+            h(
+              "button",
+              {
+                ariaLabel: "Smaller deviation",
+                title: "The next point, of smaller deviation",
+                onclick: () => this.step(1),
+              },
+              "›",
+            ),
+          ),
+          "deviations",
+          this.slider,
+          this.factor_text,
+          save,
+        ),
       ),
     );
     this.pickByPress();
@@ -135,6 +168,23 @@ export class DeviationMap {
     this.view.requestRender();
   }
 
+  private magnifyAnew(): void {
+    this.magnify(Number(this.slider.value));
+    this.onMagnified(this.state);
+  }
+
+  /** Where the slider of the magnification stands, for the address; null where it began. */
+  get state(): string | null {
+    return Number(this.slider.value) === AT_FIRST ? null : this.slider.value;
+  }
+
+  /** As an address says. */
+  take(state: string | undefined): void {
+    if (state === undefined || state === this.slider.value || !(Number(state) >= 0)) return;
+    this.slider.value = state;
+    this.magnify(Number(this.slider.value));
+  }
+
   private magnify(slider: number): void {
     this.k = slider === 0 ? 1 : Math.max(1, roundNumber(this.most ** (slider / 100)));
     this.factor_text.textContent = factor(this.k);
@@ -184,10 +234,23 @@ export class DeviationMap {
     });
   }
 
+  /** The next point in the order of the deviations, of what is marked: the way to every point without a mouse. */
+  private step(by: 1 | -1): void {
+    const deviations = this.frame?.f32("deviation_um") ?? new Float32Array();
+    const size = (i: number): number => Math.abs(deviations[i] ?? 0);
+    const there = Array.from(deviations.keys()).filter(
+      (i) => this.marked === null || this.marked.has(this.owner[i] ?? 0),
+    );
+    const order = there.sort((a, b) => size(b) - size(a) || a - b);
+    const next = order[Math.max(0, Math.min(order.length - 1, order.indexOf(this.picked) + by))];
+    if (next !== undefined) this.pick(next);
+  }
+
   /** Says of a point how it is and why. */
   pick(i: number): void {
     const { frame } = this;
     if (!frame) return;
+    this.picked = i;
     const { document, programs, error_names } = frame.header;
     const places = frame.f32("places_mm").subarray(3 * i, 3 * i + 3);
     const um = (name: string): string => number(frame.f32(name)[i] ?? 0, 2);

@@ -4,6 +4,7 @@ import { diagnosticList, split, type App } from "../../app.ts";
 import { fill, h } from "../../dom.ts";
 import { number } from "../../format.ts";
 import type { Frame } from "../../frame.ts";
+import { withErrorNames } from "../../glossary/glossary.ts";
 import { DeviationMap } from "./deviationmap.ts";
 import { studyChoice } from "./summary.ts";
 import type { CharacteristicValue, CutPoint, DrawingHeader, Verdict } from "./types.ts";
@@ -23,7 +24,7 @@ export class Drawing {
   private readonly surfaces = h("div", { class: "panel" });
   private chosen = 0;
 
-  private readonly map: DeviationMap;
+  readonly map: DeviationMap;
 
   constructor(host: HTMLElement, app: App) {
     this.app = app;
@@ -75,7 +76,11 @@ export class Drawing {
       ),
       document.outcome === "pass"
         ? null
-        : h("span", { class: "verdict-correction", dataTest: "correction" }, correction(document.sufficient)),
+        : h(
+            "span",
+            { class: "verdict-correction", dataTest: "correction" },
+            withErrorNames(correction(document.sufficient)),
+          ),
     );
     this.showValues(document);
     this.showBudget(nearest);
@@ -193,7 +198,7 @@ export class Drawing {
             h(
               "tr",
               { dataError: effect.error },
-              h("td", {}, effect.error),
+              h("td", {}, withErrorNames(effect.error)),
               h("td", { class: "number" }, number(1e3 * effect.without_mm, 2)),
               h("td", { class: "number" }, number(1e3 * (effect.without_mm - value.value_mm), 2)),
             ),

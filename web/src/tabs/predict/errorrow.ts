@@ -2,6 +2,7 @@
 
 import { h } from "../../dom.ts";
 import { number } from "../../format.ts";
+import { errorLink } from "../../glossary/glossary.ts";
 
 export interface ErrorChange {
   factor?: number;
@@ -43,7 +44,7 @@ export class ErrorRow {
       "tr",
       { dataError: name },
       h("td", {}, this.on),
-      h("td", { class: "axis-name" }, name),
+      h("td", { class: "axis-name" }, errorLink(name)),
       h("td", { class: "axis-slider" }, this.slider),
       h("td", { class: "number" }, this.text),
       h("td", { class: "number" }, this.box, h("span", { class: "unit" }, unit)),
@@ -74,6 +75,22 @@ export class ErrorRow {
     const times = Number(this.slider.value);
     this.text.textContent = this.on.checked ? `×${number(times, 2)}` : "off";
     this.element.classList.toggle("changed", this.change !== null);
+  }
+
+  /** For the address: "off", "x1.5", "a3", "x1.5a3"; "" as in the file. */
+  get state(): string {
+    if (!this.on.checked) return "off";
+    const [times, added] = [Number(this.slider.value), Number(this.box.value)];
+    return `${times === 1 ? "" : `x${times}`}${added === 0 ? "" : `a${added}`}`;
+  }
+
+  /** As an address says; without `onchange`. */
+  take(words: string): void {
+    const found = /^(?:x(-?[\d.]+))?(?:a(-?[\d.]+))?$/.exec(words);
+    this.on.checked = words !== "off";
+    this.slider.value = found?.[1] ?? "1";
+    this.box.value = found?.[2] ?? "0";
+    this.show();
   }
 
   switchOff(): void {

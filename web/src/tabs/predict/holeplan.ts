@@ -113,7 +113,7 @@ function drawScale(d: Drawing, spec: HolePlanSpec, plan: Plan): void {
     s("text", { x: 14 + length, y: y + 4, fill: "var(--ink)" }, um(bar, bar < 1 ? 2 : 0)),
     s(
       "text",
-      { x: 4, y: d.height - 6, fill: "var(--actual)", "font-weight": "600" },
+      { x: 4, y: d.height - 6, fill: "var(--actual-ink)", "font-weight": "600" },
       `arrows ${factor(plan.magnified)}`,
     ),
     s(

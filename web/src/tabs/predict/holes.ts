@@ -123,7 +123,7 @@ export class Holes {
             h("th", { class: "number" }, "worst"),
             h("th", { class: "number" }, "U (k = 2)"),
             h("th", { class: "number" }, "tolerance"),
-            h("th", {}),
+            h("th", {}, h("span", { class: "visually-hidden" }, "verdict")),
           ),
         ),
         h(

@@ -45,6 +45,8 @@ export class PieceView {
   private frame: PieceFrame | null = null;
   private range = 1;
   private k = 1;
+  /** The user moved the slider. */
+  onMagnified: (state: string | null) => void = () => {};
   private most = 1;
 
   constructor(host: HTMLElement) {
@@ -56,7 +58,7 @@ export class PieceView {
       step: "1",
       class: "exaggeration",
       ariaLabel: "Magnification of the deviations",
-      oninput: () => this.magnify(Number(this.slider.value)),
+      oninput: () => this.magnifyAnew(),
     });
     const save = h(
       "button",
@@ -102,6 +104,23 @@ export class PieceView {
 
   private factorAt(slider: number): number {
     return slider === 0 ? 1 : Math.max(1, roundTo2(this.most ** (slider / 100)));
+  }
+
+  private magnifyAnew(): void {
+    this.magnify(Number(this.slider.value));
+    this.onMagnified(this.state);
+  }
+
+  /** Where the slider of the magnification stands, for the address; null where it began. */
+  get state(): string | null {
+    return Number(this.slider.value) === AT_FIRST ? null : this.slider.value;
+  }
+
+  /** As an address says. */
+  take(state: string | undefined): void {
+    if (state === undefined || state === this.slider.value || !(Number(state) >= 0)) return;
+    this.slider.value = state;
+    this.magnify(Number(this.slider.value));
   }
 
   private magnify(slider: number): void {

@@ -143,7 +143,7 @@ export class Summary {
                       ? "expanded uncertainty: that of the decision rule where the study judges by ISO 14253-1, else for k = 2"
                       : null,
                 },
-                word,
+                word || h("span", { class: "visually-hidden" }, "bar"),
               ),
             ),
           ),

@@ -18,6 +18,8 @@ interface Setting {
   /** null: as in the file. */
   value: number | null;
   reset(): void;
+  /** As an address says; without `onchange`. */
+  take(value: number): void;
 }
 
 export class WhatIf {
@@ -165,10 +167,17 @@ export class WhatIf {
         box.value = known === null ? "" : String(rounded(known));
         element.classList.remove("changed");
       },
+      take: (value) => {
+        slider.value = box.value = String(value);
+        mark(value);
+      },
     };
-    const take = (value: number | null): void => {
+    const mark = (value: number | null): void => {
       one.value = value === null || value === known ? null : value;
       element.classList.toggle("changed", one.value !== null);
+    };
+    const take = (value: number | null): void => {
+      mark(value);
       this.changed();
     };
     slider.addEventListener("input", () => {
@@ -202,6 +211,39 @@ export class WhatIf {
         : {}),
     };
     return Object.keys(changes).length > 0 ? changes : null;
+  }
+
+  /** Every setting with its name in the address. */
+  private named(): [string, Setting][] {
+    return [
+      ...[...this.rotary].map(([name, one]): [string, Setting] => [`at.${name}`, one]),
+      ...(this.tool ? [["tool", this.tool] as [string, Setting]] : []),
+      ...[...this.sensors].map(([name, one]): [string, Setting] => [`celsius.${name}`, one]),
+    ];
+  }
+
+  /** The changes for the address: "EC0Y:off,EXX:x1.5a3,at.C:30"; null: none. */
+  get state(): string | null {
+    const words = [
+      ...this.rows.filter((row) => row.state).map((row) => `${row.name}:${row.state}`),
+      ...this.named().flatMap(([name, { value }]) => (value === null ? [] : [`${name}:${value}`])),
+    ];
+    return words.join(",") || null;
+  }
+
+  /** The changes that an address names, instead of those here. */
+  take(state: string | null): void {
+    if (state === this.state) return;
+    for (const one of [...this.rows, ...this.settings()]) one.reset();
+    const settings = new Map(this.named());
+    for (const part of (state ?? "").split(",")) {
+      const [name = "", words = ""] = part.split(":");
+      const value = Number(words);
+      this.rows.find((row) => row.name === name)?.take(words);
+      if (words !== "" && Number.isFinite(value)) settings.get(name)?.take(value);
+    }
+    this.filter();
+    this.changed();
   }
 
   private changed(): void {

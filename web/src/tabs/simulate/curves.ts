@@ -21,6 +21,8 @@ interface Asked {
 export interface CurvesOwner {
   seek(time_s: number): void;
   zoomed(window_s: [number, number] | null): void;
+  /** Other curves are shown. */
+  chosen(): void;
   failed(error: unknown): void;
 }
 
@@ -193,7 +195,7 @@ export class Curves {
       {
         ariaPressed: String(this.shown.includes(key)),
         title: `${title} (${unit})`,
-        ariaLabel: `${title}, ${unit}`,
+        ariaLabel: `${word}: ${title}, ${unit}`,
         dataKey: key,
         onclick: () => this.toggle(key, chip),
       },
@@ -211,5 +213,26 @@ export class Curves {
       this.plots.get(key)?.dispose();
       this.plots.delete(key);
     }
+    this.owner.chosen();
+  }
+
+  /** For the address; null: those at the beginning. */
+  get state(): string | null {
+    const keys = this.shown.join(",");
+    return keys === FIRST_SHOWN.join(",") ? null : keys || "none";
+  }
+
+  /** The curves that an address names, if the simulation has them. */
+  take(wanted: string | undefined): void {
+    if (wanted === undefined || wanted === (this.state ?? FIRST_SHOWN.join(","))) return;
+    const all = this.simulation?.header.quantities.map((q) => q.key) ?? [];
+    this.shown = wanted.split(",").filter((key) => all.includes(key));
+    for (const [key, plot] of this.plots) {
+      if (this.shown.includes(key)) continue;
+      plot.dispose();
+      this.plots.delete(key);
+    }
+    this.showChoice();
+    this.request();
   }
 }

@@ -2,7 +2,7 @@
 
 import { latestOnly } from "../../api.ts";
 import { h } from "../../dom.ts";
-import { clock, mm } from "../../format.ts";
+import { clock, clockUnit, mm } from "../../format.ts";
 import type { Frame } from "../../frame.ts";
 import type { MachineView } from "../../scene/view.ts";
 import type { Colour, PathHeader, Simulation } from "./answers.ts";
@@ -38,10 +38,12 @@ export class ToolPath {
     (error) => this.failed(error),
   );
   private readonly failed: (error: unknown) => void;
+  private readonly changed: () => void;
 
-  constructor(view: MachineView, failed: (error: unknown) => void) {
+  constructor(view: MachineView, failed: (error: unknown) => void, changed: () => void) {
     this.view = view;
     this.failed = failed;
+    this.changed = changed;
     const buttons = COLOURS.map(([colour, word, title]) =>
       h(
         "button",
@@ -96,6 +98,19 @@ export class ToolPath {
   }
 
   private pick(colour: Colour): void {
+    this.take(colour);
+    this.changed();
+  }
+
+  /** For the address; null while the user has not chosen. */
+  get state(): Colour | null {
+    return this.picked ? this.colour : null;
+  }
+
+  /** As an address says. */
+  take(wanted: string | undefined): void {
+    const colour = COLOURS.find(([key]) => key === wanted)?.[0];
+    if (!colour || (this.picked && colour === this.colour)) return;
     this.picked = true;
     this.show(colour);
     this.request();
@@ -130,7 +145,7 @@ export class ToolPath {
         ? undefined
         : { title: COLOURS.find(([key]) => key === colour)?.[1] ?? header.title, unit: header.unit },
     );
-    const part = window_s ? `path from ${clock(window_s[0])} to ${clock(window_s[1])} min:s` : null;
+    const part = window_s ? `path from ${clock(window_s[0])} to ${clock(window_s[1])}${clockUnit(window_s[1])}` : null;
     const coarse = header.complete ? null : `path drawn within ${mm(header.chord_mm, 3)}`;
     this.view.overlay.note("path", [part, coarse].filter(Boolean).join(", ") || null);
     this.setTime(this.now_s);

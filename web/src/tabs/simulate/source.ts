@@ -28,7 +28,7 @@ export class SourceList {
     class: "source-scroll",
     tabindex: "0",
     role: "listbox",
-    ariaLabel: "Source of the program. A click on a line goes to it.",
+    ariaLabel: "Source of the program. Arrow keys move the mark, Enter or a click on a line goes to it.",
   });
   private readonly tall = h("div", { class: "source-tall" });
   private readonly rows = h("div", { class: "source-rows" });
@@ -36,6 +36,8 @@ export class SourceList {
   private lines = new Lines("");
   private notes = new Map<number, LineNote[]>();
   private current = 0;
+  /** The line that the arrow keys have reached, or that was found; 0: none. */
+  private cursor = 0;
   /** Height of what is in sight, px. */
   private sight = 0;
   private scrolled_at = -Infinity;
@@ -62,7 +64,7 @@ export class SourceList {
   show(text: string, notes: readonly LineNote[]): void {
     this.lines = new Lines(text);
     this.setNotes(notes);
-    this.current = 0;
+    this.current = this.cursor = 0;
     this.own_top = 0;
     this.resize();
     this.scroll.scrollTop = 0;
@@ -82,7 +84,28 @@ export class SourceList {
   setCurrent(line: number): void {
     if (line === this.current) return;
     this.current = line;
-    if (performance.now() - this.scrolled_at > REST_MS) this.reveal(line);
+    if (performance.now() - this.scrolled_at > REST_MS) {
+      this.cursor = 0;
+      this.reveal(line);
+    }
+    this.draw();
+  }
+
+  /** Marks the next or the previous line with these words and shows it; null where there is none. */
+  find(words: string, step: 1 | -1): number | null {
+    const line = this.lines.find(words, this.cursor || this.current || 1, step);
+    if (line !== null) this.mark(line);
+    return line;
+  }
+
+  focus(): void {
+    this.scroll.focus({ preventScroll: true });
+  }
+
+  private mark(line: number): void {
+    this.cursor = Math.min(this.lines.count, Math.max(1, line));
+    this.scrolled_at = performance.now();
+    this.reveal(this.cursor);
     this.draw();
   }
 
@@ -147,10 +170,14 @@ export class SourceList {
   private key(event: KeyboardEvent): void {
     const page = Math.max(1, Math.floor(this.rowsInSight()) - 1);
     const by = { ArrowUp: -1, ArrowDown: 1, PageUp: -page, PageDown: page }[event.key];
-    if (by === undefined) return;
+    const at = this.cursor || this.current || Math.round(this.first()) + 1;
+    if (event.key === "Enter" && event.target === this.scroll) this.pick(at);
+    else if (by === undefined) return;
+    else {
+      if (Math.abs(by) > 1) this.setFirst(Math.round(this.first()) + by);
+      this.mark(at + by);
+    }
     event.preventDefault();
-    this.scrolled_at = performance.now();
-    this.setFirst(Math.round(this.first()) + by);
   }
 
   private clicked(event: Event): void {
@@ -169,6 +196,10 @@ export class SourceList {
     const inner = h("div", { class: "source-inner" }, rows);
     inner.style.transform = `translateY(${(-(first - top) * ROW).toFixed(1)}px)`;
     fill(this.rows, inner);
+    const marked = this.cursor || this.current;
+    if (inner.querySelector(`#source-line-${marked}`))
+      this.scroll.setAttribute("aria-activedescendant", `source-line-${marked}`);
+    else this.scroll.removeAttribute("aria-activedescendant");
   }
 
   private row(line: number): HTMLElement {
@@ -178,8 +209,9 @@ export class SourceList {
     return h(
       "div",
       {
-        class: `source-line ${worst}`,
+        class: `source-line ${worst}${line === this.cursor ? " marked" : ""}`,
         role: "option",
+        id: `source-line-${line}`,
         dataLine: line,
         ariaCurrent: line === this.current ? "true" : null,
         ariaSelected: String(line === this.current),

@@ -3,7 +3,7 @@
 import { diagnosticList } from "../../app.ts";
 import type { Diagnostic, Refusal } from "../../api.ts";
 import { fill, h, type Child } from "../../dom.ts";
-import { clock, mm, number, um, urad, withUnit } from "../../format.ts";
+import { clock, clockUnit, mm, number, um, urad, withUnit } from "../../format.ts";
 import type { Mark, SimulationDocument, SimulationHeader } from "./answers.ts";
 
 /** Rows of issues in the page; the time line has all. */
@@ -107,7 +107,7 @@ export class Summary {
         { class: "facts" },
         fact(
           "machining time",
-          [clock(doc.time_s), h("small", {}, " min:s")],
+          [clock(doc.time_s), h("small", {}, clockUnit(doc.time_s))],
           "time",
           h(
             "span",

@@ -1,7 +1,7 @@
 /** The time line: drag to scrub, marks of collisions, over-travel and other issues jump there. */
 
 import { fill, h } from "../../dom.ts";
-import { clock } from "../../format.ts";
+import { clock, clockUnit, duration } from "../../format.ts";
 import type { Mark } from "./answers.ts";
 
 /** Marks closer than this share of the line are one mark with a number. */
@@ -14,7 +14,8 @@ interface Cluster {
 
 export class Timeline {
   readonly element: HTMLElement;
-  private readonly marks = h("div", { class: "timeline-marks" });
+  /** For the mouse; the list of issues and the keys n and p lead to the same places. */
+  private readonly marks = h("div", { class: "timeline-marks", ariaHidden: "true" });
   private readonly spans = h("div", { class: "timeline-spans" });
   private readonly window_part = h("div", { class: "timeline-window", hidden: true });
   private readonly done = h("div", { class: "timeline-done" });
@@ -57,7 +58,7 @@ export class Timeline {
     const share = this.share(time_s);
     this.done.style.width = this.thumb.style.left = share;
     this.track.setAttribute("aria-valuenow", String(time_s));
-    this.track.setAttribute("aria-valuetext", `${clock(time_s)} of ${clock(this.duration_s)}, minutes and seconds`);
+    this.track.setAttribute("aria-valuetext", `${duration(time_s)} of ${duration(this.duration_s)}`);
   }
 
   /** The part of the time that the plots show. */
@@ -76,15 +77,13 @@ export class Timeline {
     const first = marks[0] as Mark;
     const words =
       marks.length === 1
-        ? `${first.text}, line ${first.line}, ${clock(first.time_s)} min:s`
-        : `${marks.length} places from ${clock(first.time_s)} min:s, the first in line ${first.line}: ${first.text}`;
-    const button = h("button", {
+        ? `${first.text}, line ${first.line}, ${clock(first.time_s)}${clockUnit(first.time_s)}`
+        : `${marks.length} places from ${clock(first.time_s)}${clockUnit(first.time_s)}, the first in line ${first.line}: ${first.text}`;
+    const button = h("span", {
       class: `timeline-mark ${critical ? "critical" : ""}`,
       dataKind: first.kind,
       dataTime: first.time_s,
       title: words,
-      ariaLabel: words,
-      tabindex: critical ? "0" : "-1",
       onclick: () => this.seek(first.time_s),
     });
     button.style.left = this.share(first.time_s);

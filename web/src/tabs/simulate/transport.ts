@@ -1,7 +1,8 @@
 /** Play, pause, step, how fast, and the keys for it. */
 
 import { h, s } from "../../dom.ts";
-import { clock } from "../../format.ts";
+import { clock, clockUnit } from "../../format.ts";
+import { tabKey } from "../../keys.ts";
 import { NO_WAITING, type Player } from "./player.ts";
 
 const FACTORS = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
@@ -71,7 +72,7 @@ export class Transport {
 
   setTime(time_s: number): void {
     this.clock_text.textContent = clock(time_s);
-    this.total.textContent = ` / ${clock(this.player.duration_s)} min:s`;
+    this.total.textContent = ` / ${clock(this.player.duration_s)}${clockUnit(this.player.duration_s)}`;
   }
 
   setPlaying(playing: boolean): void {
@@ -80,19 +81,19 @@ export class Transport {
     this.play_button.querySelector("path")?.setAttribute("d", playing ? PAUSE : PLAY);
   }
 
-  /** The keys of the tab; the picture, plots and fields keep theirs. */
-  key(event: KeyboardEvent): void {
-    if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey) return;
+  /** The keys of the player; the picture, plots and fields keep theirs. True if this was one. */
+  key(event: KeyboardEvent): boolean {
+    const key = tabKey(event);
     const at = event.target as HTMLElement;
-    if (at.matches("input, select, textarea, canvas, [role=separator], [role=tab]")) return;
-    if (event.key === " ") {
-      if (at.matches("button, a, summary, label")) return;
+    if (key === null || at.matches("input, canvas, [role=separator], [role=tab]")) return false;
+    if (key === " ") {
+      if (at.matches("button, a, summary, label")) return false;
       this.player.toggle();
-    } else if (event.key === "ArrowRight") this.player.stepBlock("next");
-    else if (event.key === "ArrowLeft") this.player.stepBlock("previous");
-    else if (event.key === "Home") this.player.seek(0);
-    else if (event.key === "End") this.player.seek(this.player.duration_s);
-    else return;
-    event.preventDefault();
+    } else if (key === "ArrowRight") this.player.stepBlock("next");
+    else if (key === "ArrowLeft") this.player.stepBlock("previous");
+    else if (key === "Home") this.player.seek(0);
+    else if (key === "End") this.player.seek(this.player.duration_s);
+    else return false;
+    return true;
   }
 }

@@ -142,7 +142,7 @@ function shares(budget: NonNullable<Traced["budget"]>): HTMLElement {
           {},
           h("th", { scope: "col" }, "error"),
           ["X", "Y", "Z", "length"].map((word) => h("th", { scope: "col", class: "number" }, word)),
-          h("th", { scope: "col" }, ""),
+          h("td", {}),
         ),
       ),
       h("tbody", {}, shown.map(row)),
