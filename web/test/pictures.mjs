@@ -75,6 +75,10 @@ const PICTURES = {
     act: (page) =>
       page.waitForFunction(() => document.querySelector("[data-test=report-note]")?.textContent?.includes(".html")),
   },
+  compensate: {
+    at: "compensate?of=program&machine=machines/xkas2525/machine.toml&program=examples/06_compensate/frustum.mpf",
+    act: (page) => page.locator('#tab-compensate [data-test="verdict"]').waitFor({ timeout: 60_000 }),
+  },
   live: {
     at: "live?plan=examples/08_live/gantry-mock.toml",
     async act(page) {
