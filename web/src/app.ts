@@ -141,8 +141,9 @@ export class App {
     const own = from === this.api.window;
     for (const [name, { handle }] of this.mounted)
       if (!own || name !== this.state_.tab) handle?.changed?.(path ?? null, version ?? null);
-    if (!own && path) this.say(words.saved_elsewhere(path));
-    if (!this.state_.project?.files.some((file) => file.path === path)) void this.loadProject();
+    if (!own && path) this.say(from ? words.saved_elsewhere(path) : words.changed_on_disk(path));
+    // A new file, or one that is gone.
+    if (!version || !this.state_.project?.files.some((file) => file.path === path)) void this.loadProject();
   }
 
   private async route(): Promise<void> {

@@ -1,4 +1,4 @@
-/** A window over the page: Escape, its button or a press beside it close it, and the focus goes back. */
+/** A window over the page: Escape, its button or a press around it close it, and the focus goes back. */
 
 import { fill, h, type Child } from "./dom.ts";
 import { words } from "./words/index.ts";

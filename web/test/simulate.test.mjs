@@ -273,6 +273,36 @@ test("a missing set-up is said first and is one form away", async () => {
   }
 });
 
+test("what changes on the disk is seen: the program is simulated again, a new one is listed", async () => {
+  const folder = mkdtempSync(path.join(os.tmpdir(), "trueaxis-disk-"));
+  cpSync(path.join(root, path.dirname(engraver)), path.join(folder, "machine"), { recursive: true });
+  const plate = path.join(folder, "plate.nc");
+  const program = (x) => `G21 G90 G94\nG1 X${x}. F800\nM30\n`;
+  writeFileSync(plate, program(20));
+  const own = await serve(folder);
+  try {
+    const { page, complaints } = await open(browser, own.address);
+    await page.goto(`${own.address}#simulate?machine=machine/machine.toml&program=plate.nc&control=fanuc`);
+    await simulated(page);
+    const machine = path.join(folder, "machine/machine.toml");
+    const before = await cli("simulate", machine, plate, "--control", "fanuc");
+    await summaryIsThatOf(page, before);
+    writeFileSync(plate, program(90));
+    const after = await cli("simulate", machine, plate, "--control", "fanuc");
+    assert.ok(after.time_s > before.time_s + 1);
+    await page.waitForFunction(
+      (text) => document.querySelector('[data-test="time"]')?.textContent.startsWith(text),
+      clock(after.time_s),
+    );
+    writeFileSync(path.join(folder, "other.nc"), program(10));
+    await page.waitForSelector('[data-choice="program"] option[value="other.nc"]', { state: "attached" });
+    assert.deepEqual(complaints, []);
+  } finally {
+    await own.stop();
+    rmSync(folder, { recursive: true, force: true });
+  }
+});
+
 /** As if a user dropped the file on the page. */
 async function drop(page, name, text) {
   await page.evaluate(

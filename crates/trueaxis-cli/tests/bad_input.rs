@@ -313,29 +313,27 @@ fn places_for_a_report() {
     let folder = Folder::new("report");
     let notes = folder.file("notes.html", "my own notes");
     let old = folder.file("old.html", "<!doctype html><p>of last week");
-    std::fs::create_dir(folder.path("taken")).expect("a folder");
+    std::fs::create_dir(folder.path("taken.html")).expect("a folder");
     let cases = [
         folder.path("no-such-folder/report.html"),
-        folder.path("taken"),
+        folder.path("taken.html"),
         folder.path("notes.html/report.html"),
         notes.clone(),
-        STUDY.to_owned(),
-        folder.path(&"r".repeat(300)),
-        folder.path(".."),
+        folder.path(&format!("{}.html", "r".repeat(300))),
     ];
-    for place in &cases {
+    let no_form = [STUDY.to_owned(), folder.path("taken"), folder.path("..")];
+    let all = cases.iter().map(|place| (place, "unwritable-file"));
+    for (place, code) in all.chain(no_form.iter().map(|place| (place, "unknown-report-form"))) {
         let ran = trueaxis(&["predict", STUDY, "--samples", "0", "--report", place]);
         assert_eq!((ran.status, ran.out.as_str()), (2, ""), "{place}\n{}", ran.err);
-        assert_eq!(errors(&ran), [("unwritable-file".to_owned(), place.clone())]);
+        assert_eq!(errors(&ran), [(code.to_owned(), place.clone())]);
     }
     #[cfg(target_os = "linux")] // no file can be made there, not even by root
-    for place in ["/proc/report.html", "/dev/null"] {
-        refused(
-            &["predict", STUDY, "--samples", "0", "--report", place],
-            &[("unwritable-file", place)],
-        );
-    }
-    assert_eq!(folder.names(), ["notes.html", "old.html", "taken"]);
+    refused(
+        &["predict", STUDY, "--samples", "0", "--report", "/proc/report.html"],
+        &[("unwritable-file", "/proc/report.html")],
+    );
+    assert_eq!(folder.names(), ["notes.html", "old.html", "taken.html"]);
     assert_eq!(std::fs::read_to_string(notes).expect("still there"), "my own notes");
     // An unusable study leaves the report of last week alone.
     let study = format!("{BAD}study-far-fixture.toml");

@@ -78,8 +78,8 @@ const CASES: [Case; 19] = [
         input: "examples/02_simulate/ring-fanuc.nc",
     },
     Case {
-        words: "evaluate iso230-2 examples/07_verify/x-axis-laser.csv --report OUT",
-        file: "OUT",
+        words: "evaluate iso230-2 examples/07_verify/x-axis-laser.csv --report OUT.html",
+        file: "OUT.html",
         input: "examples/07_verify/x-axis-laser.csv",
     },
     Case {

@@ -43,6 +43,7 @@ mod sending;
 mod simulated;
 mod socket;
 mod turn;
+mod watch;
 mod web;
 
 pub use addresses::Link;
@@ -136,7 +137,9 @@ impl Server {
         let token = if options.token { Some(token()?) } else { None };
         let links = addresses::links(own, token.as_deref(), &origins);
         let guard = Guard { loopback, port: own.port(), token, origins };
-        Ok(Self { listener, links, router: web::router(Desk::of(project), guard) })
+        let desk = Arc::new(Desk::of(project));
+        watch::watch(&desk);
+        Ok(Self { listener, links, router: web::router(desk, guard) })
     }
 
     /// The address to open, with the token if one is needed.

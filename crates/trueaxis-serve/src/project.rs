@@ -2,6 +2,7 @@
 
 use crate::body::short;
 use crate::refusal::Refusal;
+use crate::watch::Stamps;
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::fs;
@@ -19,6 +20,9 @@ const DEPTH: usize = 8;
 
 /// Bytes of a TOML file that tell its kind.
 const LOOKED_AT: u64 = 1 << 20;
+
+/// Larger files are told as changed by their size and time alone.
+const MOST_COMPARED: u64 = 16 << 20;
 
 /// Where the examples are listed.
 const INDEX: &str = "examples/index.toml";
@@ -194,9 +198,8 @@ impl Project {
         let Ok(entries) = fs::read_dir(folder) else { return };
         for entry in entries.flatten() {
             let name = entry.file_name().to_string_lossy().into_owned();
-            let skipped = name.starts_with('.') || ["target", "node_modules"].contains(&&*name);
             let Ok(kind) = entry.file_type() else { continue };
-            if skipped || kind.is_symlink() || files.len() >= MOST_FILES {
+            if is_skipped(&name) || kind.is_symlink() || files.len() >= MOST_FILES {
                 continue;
             }
             let path = entry.path();
@@ -211,6 +214,41 @@ impl Project {
                 files.push(FileEntry { path, kind, bytes });
             }
         }
+    }
+
+    /// What tells that a file may have changed: its size and time, of all files whose ending has a use. No file is opened.
+    pub(crate) fn stamps(&self) -> Stamps {
+        let mut stamps = Stamps::new();
+        self.stamp(&self.root, DEPTH, &mut stamps);
+        stamps
+    }
+
+    fn stamp(&self, folder: &Path, depth: usize, stamps: &mut Stamps) {
+        let Ok(entries) = fs::read_dir(folder) else { return };
+        for entry in entries.flatten() {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            let Ok(kind) = entry.file_type() else { continue };
+            if is_skipped(&name) || kind.is_symlink() || stamps.len() >= MOST_FILES {
+                continue;
+            }
+            let path = entry.path();
+            if kind.is_dir() && depth > 0 {
+                self.stamp(&path, depth - 1, stamps);
+            } else if let (true, Ok(data), Ok(shown)) =
+                (kind.is_file() && has_use(&path), entry.metadata(), path.strip_prefix(&self.root))
+            {
+                let mut hasher = DefaultHasher::new();
+                (data.len(), data.modified().ok()).hash(&mut hasher);
+                stamps.insert(shown.to_string_lossy().replace('\\', "/"), hasher.finish());
+            }
+        }
+    }
+
+    /// The version of a file; none if it is gone, or too large to be read at every change.
+    pub(crate) fn version_of(&self, name: &str) -> Option<String> {
+        let path = self.root.join(name);
+        let is_small = fs::metadata(&path).is_ok_and(|data| data.len() <= MOST_COMPARED);
+        is_small.then(|| fs::read(&path).ok()).flatten().map(|content| version(&content))
     }
 
     /// The examples of the folder, if it has any.
@@ -245,13 +283,29 @@ impl ExampleEntry {
 }
 
 /// What a file is, by its ending and, for TOML, by its sections; none if the page has no use for it.
+fn is_skipped(name: &str) -> bool {
+    name.starts_with('.') || ["target", "node_modules"].contains(&name)
+}
+
+/// Whether the ending of a file is one that [`kind_of`] knows.
+fn has_use(path: &Path) -> bool {
+    let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+    ending.is_some_and(|ending| ending == "toml" || kind_by_ending(&ending).is_some())
+}
+
 fn kind_of(path: &Path) -> Option<FileKind> {
     let ending = path.extension()?.to_string_lossy().to_ascii_lowercase();
-    Some(match &*ending {
+    match &*ending {
+        "toml" => Some(kind_of_toml(&path.to_string_lossy(), &beginning_of(path)?)),
+        ending => kind_by_ending(ending),
+    }
+}
+
+fn kind_by_ending(ending: &str) -> Option<FileKind> {
+    Some(match ending {
         "csv" | "qif" => FileKind::Readings,
         "mpf" | "spf" | "nc" | "ngc" | "h" | "tap" | "eia" | "gcode" => FileKind::Program,
         "cls" | "apt" | "cl" => FileKind::Cl,
-        "toml" => kind_of_toml(&path.to_string_lossy(), &beginning_of(path)?),
         _ => return None,
     })
 }

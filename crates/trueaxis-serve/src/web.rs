@@ -31,9 +31,9 @@ pub(crate) struct Shared {
 }
 
 /// The whole server as one function from requests to answers; each connection adds its [`Place`] ([`at_place`]).
-pub(crate) fn router(desk: Desk, guard: Guard) -> Router {
+pub(crate) fn router(desk: Arc<Desk>, guard: Guard) -> Router {
     let sockets = Arc::new(Semaphore::new(MOST_SOCKETS));
-    let shared = Shared { desk: Arc::new(desk), guard: Arc::new(guard), sockets };
+    let shared = Shared { desk, guard: Arc::new(guard), sockets };
     Router::new()
         .route("/api/socket", get(open_socket))
         .route("/api/{name}", post(ask))

@@ -133,6 +133,13 @@ class SimulateTab implements TabHandle {
       this.setup.element,
     );
     dropTarget(host, (file) => void this.choices.take(file));
+    let known = app.state.project;
+    app.subscribe(({ project }) => {
+      if (project === known) return;
+      known = project;
+      // Files that are new or gone.
+      if (this.in_sight) this.choices.show(this.choice, this.dropped);
+    });
     document.addEventListener("keydown", (event) => {
       if (this.in_sight && this.simulation && (this.transport.key(event) || this.key(event))) event.preventDefault();
     });

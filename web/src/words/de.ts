@@ -28,6 +28,7 @@ export const de: Words = {
   close: "Schließen",
   close_message: "Diese Meldung schließen",
   more: (n) => `und ${n} weitere`,
+  changed_on_disk: (path) => `${path} hat sich auf der Platte geändert`,
   saved_elsewhere: (path) => `${path} wurde in einem anderen Fenster gespeichert`,
   unsaved: (n) => (n === 1 ? "1 Datei nicht gespeichert" : `${n} Dateien nicht gespeichert`),
   keys: "Tasten",

@@ -27,6 +27,7 @@ export const en = {
   close: "Close",
   close_message: "Close this message",
   more: (n: number): string => `and ${n} more`,
+  changed_on_disk: (path: string): string => `${path} has changed on the disk`,
   saved_elsewhere: (path: string): string => `${path} was saved in another window`,
   unsaved: (n: number): string => (n === 1 ? "1 file not saved" : `${n} files not saved`),
   keys: "Keys",

@@ -135,6 +135,10 @@ impl Request for SaveRequest {
 
 /// Tells the windows of a file that was saved.
 fn tell(desk: &Desk, name: &str, version: &str, window: Option<String>) {
+    desk.told
+        .lock()
+        .unwrap_or_else(std::sync::PoisonError::into_inner)
+        .insert(name.to_owned(), version.to_owned());
     let (path, version) = (Some(name.to_owned()), Some(version.to_owned()));
     // It fails if no other window is open.
     let _ = desk.changed.send(ChangeEntry { path, version, window });
