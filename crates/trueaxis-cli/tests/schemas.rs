@@ -250,6 +250,10 @@ const REQUESTS: &[(&str, &str)] = &[
         "simulate",
         r#"{"machine": "machines/i5-engraver/machine.toml", "program": "examples/02_simulate/ring-fanuc.nc"}"#,
     ),
+    (
+        "trace",
+        r#"{"machine": "machines/i5-engraver/machine.toml", "program": "examples/02_simulate/ring-fanuc.nc", "line": 22}"#,
+    ),
     ("simulation-at", r#"{"simulation": 1, "time_s": 1.5}"#),
     ("simulation-block", r#"{"simulation": 1, "from_s": 1, "step": "next"}"#),
     ("simulation-path", r#"{"simulation": 1, "points": 500, "colour": "feed"}"#),

@@ -88,7 +88,7 @@ fn exit_status_says_whether_part_or_machine_are_in_danger() {
     let folder = Folder::new("simulate-status");
     for (name, text, status, verdict) in [
         ("good.nc", GOOD, 0, None),
-        ("far.nc", FAR, 1, Some("CRITICAL")),
+        ("far.nc", FAR, 1, Some("NO SET-UP")),
         ("broken.nc", BROKEN, 2, None),
     ] {
         let (program, page) = (folder.file(name, text), folder.path(&format!("{name}.html")));
@@ -145,13 +145,13 @@ fn nothing_is_left_behind_after_an_error() {
 fn files_that_are_no_results_are_not_overwritten() {
     let folder = Folder::new("simulate-places");
     let program = folder.file("good.nc", GOOD);
-    let (missing, both) = (folder.path("none/p.html"), folder.path("both.csv"));
+    let (missing, both) = (folder.path("none/p.html"), folder.path("both.html"));
     let cases = [
-        ("--report", program.as_str(), "unwritable-file"),
+        ("--report", program.as_str(), "unknown-report-form"),
         ("--path", program.as_str(), "unwritable-file"),
         ("--path", MILL, "unwritable-file"),
         ("--report", missing.as_str(), "unwritable-file"),
-        ("--report", "/dev/null", "unwritable-file"),
+        ("--report", "/proc/p.html", "unwritable-file"),
     ];
     for (argument, place, code) in cases {
         let mut arguments = vec!["simulate", MILL, &program, argument, place];
