@@ -77,8 +77,8 @@ pub(crate) struct Desk {
     pub(crate) made: Kept<Made>,
     /// One file is saved at a time: between looking at its version and replacing it.
     pub(crate) saving: Mutex<()>,
-    /// The versions of the files that the page itself has written, so that they are told once.
-    pub(crate) told: Mutex<HashMap<String, String>>,
+    /// The versions of the files that the page itself has written, so that they are reported once.
+    pub(crate) written: Mutex<HashMap<String, String>>,
     /// Files that were saved, for the other windows.
     pub(crate) changed: broadcast::Sender<ChangeEntry>,
     pub(crate) quick: Turns,
@@ -93,7 +93,7 @@ impl Desk {
             reports: Kept::of(16),
             made: Kept::of(8),
             saving: Mutex::default(),
-            told: Mutex::default(),
+            written: Mutex::default(),
             changed: broadcast::channel(64).0,
             quick: Turns::of(QUICK_AT_A_TIME),
             long: Turns::of(LONG_AT_A_TIME),

@@ -21,7 +21,7 @@ const DEPTH: usize = 8;
 /// Bytes of a TOML file that tell its kind.
 const LOOKED_AT: u64 = 1 << 20;
 
-/// Larger files are told as changed by their size and time alone.
+/// Larger files count as changed by their size and time alone.
 const MOST_COMPARED: u64 = 16 << 20;
 
 /// Where the examples are listed.

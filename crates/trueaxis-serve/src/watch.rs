@@ -1,4 +1,4 @@
-//! Files of the project that other programs write: the open windows are told within a second.
+//! Files of the project that other programs write: the open windows learn of it within a second.
 
 use crate::change::ChangeEntry;
 use crate::desk::Desk;
@@ -54,8 +54,8 @@ fn tell(desk: &Desk, paths: &[String]) {
 /// None where the page itself has written what is there.
 fn change(desk: &Desk, path: &str) -> Option<ChangeEntry> {
     let version = desk.project.version_of(path);
-    let told = desk.told.lock().unwrap_or_else(PoisonError::into_inner);
-    if version.is_some() && told.get(path) == version.as_ref() {
+    let written = desk.written.lock().unwrap_or_else(PoisonError::into_inner);
+    if version.is_some() && written.get(path) == version.as_ref() {
         return None;
     }
     Some(ChangeEntry { path: Some(path.to_owned()), version, window: None })

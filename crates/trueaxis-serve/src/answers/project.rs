@@ -135,7 +135,7 @@ impl Request for SaveRequest {
 
 /// Tells the windows of a file that was saved.
 fn tell(desk: &Desk, name: &str, version: &str, window: Option<String>) {
-    desk.told
+    desk.written
         .lock()
         .unwrap_or_else(std::sync::PoisonError::into_inner)
         .insert(name.to_owned(), version.to_owned());
