@@ -48,6 +48,14 @@ fn rows_of_unequal_length_keep_their_columns() {
     bytes(&Report::new("").section(Section::new("s").item(Item::Table(Table::default()))));
 }
 
+/// Typesetting takes about 0.1 ms a cell: a table of a million rows would take minutes and gigabytes.
+#[test]
+fn a_long_table_ends_with_what_is_not_printed() {
+    let size = |rows| bytes(&report(rows)).len();
+    let (most, more, many) = (size(2000), size(2001), size(300_000));
+    assert!(most < more && many.abs_diff(more) < 2000, "{most} {more} {many}");
+}
+
 #[test]
 fn a_heading_and_a_logo_are_set() {
     let heading = Heading {

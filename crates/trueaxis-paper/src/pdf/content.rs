@@ -2,7 +2,11 @@
 
 use crate::PrintError;
 use serde::Serialize;
+use std::borrow::Cow;
 use trueaxis_report::{Columns, Figure, Heading, Item, Report, Row, Section, Standing, Table};
+
+/// Rows of a table on paper, some forty pages; more are read by programs.
+const MOST_ROWS: usize = 2000;
 
 type Files = Vec<(String, Vec<u8>)>;
 
@@ -53,7 +57,7 @@ enum Block<'a> {
         rows: Vec<Cells<'a>>,
         /// Whether the column stands on the left.
         left: Vec<bool>,
-        note: &'a str,
+        note: Cow<'a, str>,
     },
     Figures {
         columns: &'static str,
@@ -167,9 +171,9 @@ fn table(table: &Table) -> Block<'_> {
     let columns = table.columns();
     Block::Table {
         headings: &table.headings,
-        rows: table.rows.iter().map(|row| filled(row, columns)).collect(),
+        rows: table.rows.iter().take(MOST_ROWS).map(|row| filled(row, columns)).collect(),
         left: (0..columns).map(|i| table.has_words(i)).collect(),
-        note: &table.note,
+        note: note(table),
     }
 }
 
@@ -178,4 +182,15 @@ fn filled(row: &Row, columns: usize) -> Cells<'_> {
     let mut cells: Vec<&str> = row.cells.iter().map(String::as_str).collect();
     cells.resize(columns, "");
     Cells { cells, bold: row.bold }
+}
+
+/// What stands below a table, with what is not printed.
+fn note(table: &Table) -> Cow<'_, str> {
+    match table.rows.len().saturating_sub(MOST_ROWS) {
+        0 => Cow::Borrowed(&table.note),
+        more => format!("{} … and {more} more rows: the HTML report has them all.", table.note)
+            .trim_start()
+            .to_owned()
+            .into(),
+    }
 }
