@@ -151,7 +151,7 @@ fn files_that_are_no_results_are_not_overwritten() {
         ("--path", program.as_str(), "unwritable-file"),
         ("--path", MILL, "unwritable-file"),
         ("--report", missing.as_str(), "unwritable-file"),
-        ("--report", "/proc/p.html", "unwritable-file"),
+        ("--report", "/dev/null", "unknown-report-form"),
     ];
     for (argument, place, code) in cases {
         let mut arguments = vec!["simulate", MILL, &program, argument, place];
