@@ -24,18 +24,18 @@ pub struct Door<'py> {
     force: bool,
 }
 
-/// Puts the question of a verb; `options` by the names of the command.
+/// Puts the question of a verb; `options` by the names of the command, `report` with its heading.
 #[pyfunction]
-#[pyo3(signature = (verb, options, memory, report, heading, force))]
+#[pyo3(signature = (verb, options, memory, report, force))]
 pub fn ask(
     py: Python<'_>,
     verb: &str,
     options: &Bound<'_, PyDict>,
     memory: Contents,
-    report: Option<PathBuf>,
-    heading: Option<PathBuf>,
+    report: (Option<PathBuf>, Option<PathBuf>),
     force: bool,
 ) -> PyResult<NativeAnswer> {
+    let (report, heading) = report;
     let door = Door { py, memory, report, heading, force };
     verbs::ask(verb, &Options(options), &door)
 }

@@ -44,7 +44,7 @@ def ask(verb: str, given: Dict[str, Any]) -> Answer[Any]:
     for one, other in _NEED:
         if one in options and other in options:
             needs(options, one, other)
-    native = _native.ask(verb, options, memory, path_of(report), path_of(heading), bool(force))
+    native = _native.ask(verb, options, memory, (path_of(report), path_of(heading)), bool(force))
     answer: Answer[Any] = Answer(native)
     warn(answer.diagnostics, 3)
     return answer

@@ -16,8 +16,7 @@ def ask(
     verb: str,
     options: Dict[str, Any],
     memory: Mapping[str, bytes],
-    report: Optional[str],
-    heading: Optional[str],
+    report: Tuple[Optional[str], Optional[str]],
     force: bool,
 ) -> Answer: ...
 @final
