@@ -133,10 +133,17 @@ test("the program is saved in the project and simulated; what is there is not re
     // Back: the answer is still there, and nothing is asked again.
     await page.goBack();
     assert.match(await page.textContent('#tab-compensate [data-test="saved"]'), /Saved as part-comp.mpf/);
-    // The machine file is edited: what was made from it is not saved any more.
+    // The machine file is edited on the disk: the page sees it, and makes the program from it anew.
     const file = path.join(folder, "gantry/machine.toml");
     writeFileSync(file, `${readFileSync(file, "utf8")}\n# edited\n`);
-    await save("later.mpf", "gantry/machine.toml was changed since this was made from it");
+    await page.waitForFunction(
+      () => !document.querySelector('#tab-compensate [data-test="saved"]')?.textContent.includes("part-comp"),
+    );
+    await verdict(page);
+    await save("later.mpf", "Saved as later.mpf");
+    // Its first line names the machine file by its content.
+    const first = (name) => readFileSync(path.join(folder, name), "utf8").match(/FILE ([0-9a-f]+)/)[1];
+    assert.notEqual(first("later.mpf"), first("part-comp.mpf"));
     // Compensated already: said where the result would stand.
     await page.goto(address(own.address, "compensate?of=program&machine=gantry/machine.toml&program=part-comp.mpf"));
     const refused = await page.waitForSelector("#tab-compensate .refused");
