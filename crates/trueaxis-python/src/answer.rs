@@ -6,7 +6,8 @@ use pyo3::types::PyList;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use trueaxis::input::Diagnostics;
 use trueaxis::questions::Answer;
-use trueaxis::report::DrawingError;
+use trueaxis::report::{DrawingError, Report};
+use trueaxis_paper::today;
 
 /// An answer of the library, whatever the verb.
 pub type Held = Box<dyn Answer + Send>;
@@ -87,7 +88,7 @@ impl NativeAnswer {
 
     /// The page that the command writes with `--report`.
     fn page(&self, py: Python<'_>) -> PyResult<String> {
-        self.drawn(py, |answer| answer.page())
+        self.drawn(py, |answer| Report { date: today(), ..answer.report() }.html())
     }
 
     /// Its pictures, SVG.
