@@ -178,6 +178,27 @@ pub fn robust_deviation(values: impl Iterator<Item = f64>) -> f64 {
     1.482_602_2 * *median
 }
 
+/// Standard deviation within groups, and its degrees of freedom; none where no group has two values.
+///
+/// The squares about the mean of each group, over Σ (n − 1) (GUM, JCGM 100:2008, H.3.6 and H.5.2).
+///
+/// ```
+/// use trueaxis_geometry::statistics::pooled_deviation;
+/// // 1, 3 about 2; 10, 10, 13 about 11; a single value tells nothing: √((2 + 6) / (1 + 2)).
+/// let groups = [vec![1.0, 3.0], vec![10.0, 10.0, 13.0], vec![99.0]];
+/// let (s, freedom) = pooled_deviation(groups.iter().map(Vec::as_slice)).unwrap();
+/// assert!((s - (8.0_f64 / 3.0).sqrt()).abs() < 1e-15 && freedom == 3.0);
+/// ```
+pub fn pooled_deviation<'a>(groups: impl Iterator<Item = &'a [f64]>) -> Option<(f64, f64)> {
+    let (mut squares, mut free) = (0.0, 0.0);
+    for group in groups {
+        let mean = group.iter().sum::<f64>() / group.len() as f64;
+        squares += group.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
+        free += group.len() as f64 - 1.0;
+    }
+    (free > 0.0).then(|| ((squares / free).sqrt(), free))
+}
+
 /// Numbers without a pattern that are the same in every run (splitmix64; Steele, Lea, Flood 2014).
 #[derive(Debug, Clone)]
 pub struct SplitMix64(u64);

@@ -13,6 +13,7 @@ mod material;
 mod motion;
 pub mod path;
 pub mod prior;
+pub mod repeats;
 mod servo;
 pub mod stages;
 mod tables;

@@ -24,9 +24,12 @@ pub use section::{Columns, Figure, Item, Place, Section};
 pub use table::{Row, Table};
 
 use crate::DrawingError;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// How a verdict is coloured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum Standing {
     /// Nothing to object.
     Good,
@@ -37,7 +40,7 @@ pub enum Standing {
 }
 
 /// The result in one word and in one sentence.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Verdict {
     /// How it is coloured.
     pub standing: Standing,

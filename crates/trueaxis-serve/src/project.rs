@@ -188,60 +188,55 @@ impl Project {
     /// The files in the order of their paths, and whether there are more than are listed.
     pub(crate) fn files(&self) -> (Vec<FileEntry>, bool) {
         let mut files = Vec::new();
-        self.collect(&self.root, DEPTH, &mut files);
+        self.walk(&self.root, DEPTH, &mut |path, file| {
+            if let Some(kind) = kind_of(&file.path()) {
+                let bytes = file.metadata().map_or(0, |m| m.len());
+                files.push(FileEntry { path, kind, bytes });
+            }
+            files.len() < MOST_FILES
+        });
         files.sort_by(|a, b| a.path.cmp(&b.path));
         let more = files.len() >= MOST_FILES;
         (files, more)
     }
 
-    fn collect(&self, folder: &Path, depth: usize, files: &mut Vec<FileEntry>) {
-        let Ok(entries) = fs::read_dir(folder) else { return };
-        for entry in entries.flatten() {
-            let name = entry.file_name().to_string_lossy().into_owned();
-            let Ok(kind) = entry.file_type() else { continue };
-            if is_skipped(&name) || kind.is_symlink() || files.len() >= MOST_FILES {
-                continue;
-            }
-            let path = entry.path();
-            if kind.is_dir() && depth > 0 {
-                self.collect(&path, depth - 1, files);
-            } else if !kind.is_file() {
-                // A pipe would be waited for.
-            } else if let (Some(kind), Ok(shown)) = (kind_of(&path), path.strip_prefix(&self.root))
-            {
-                let path = shown.to_string_lossy().replace('\\', "/");
-                let bytes = entry.metadata().map_or(0, |m| m.len());
-                files.push(FileEntry { path, kind, bytes });
-            }
-        }
-    }
-
     /// What tells that a file may have changed: its size and time, of all files whose ending has a use. No file is opened.
     pub(crate) fn stamps(&self) -> Stamps {
         let mut stamps = Stamps::new();
-        self.stamp(&self.root, DEPTH, &mut stamps);
+        self.walk(&self.root, DEPTH, &mut |path, file| {
+            if let (true, Ok(data)) = (has_use(&file.path()), file.metadata()) {
+                let mut hasher = DefaultHasher::new();
+                (data.len(), data.modified().ok()).hash(&mut hasher);
+                stamps.insert(path, hasher.finish());
+            }
+            stamps.len() < MOST_FILES
+        });
         stamps
     }
 
-    fn stamp(&self, folder: &Path, depth: usize, stamps: &mut Stamps) {
-        let Ok(entries) = fs::read_dir(folder) else { return };
-        for entry in entries.flatten() {
-            let name = entry.file_name().to_string_lossy().into_owned();
-            let Ok(kind) = entry.file_type() else { continue };
-            if is_skipped(&name) || kind.is_symlink() || stamps.len() >= MOST_FILES {
-                continue;
-            }
+    /// Each file with its path below the project folder, until `each` says no; links and pipes are none. Whether it went to the end.
+    fn walk(
+        &self,
+        folder: &Path,
+        depth: usize,
+        each: &mut dyn FnMut(String, &fs::DirEntry) -> bool,
+    ) -> bool {
+        let Ok(entries) = fs::read_dir(folder) else { return true };
+        entries.flatten().all(|entry| {
+            let name = entry.file_name();
+            let name = name.to_string_lossy();
+            let is_skipped = name.starts_with('.') || ["target", "node_modules"].contains(&&*name);
+            let Ok(kind) = entry.file_type() else { return true };
             let path = entry.path();
-            if kind.is_dir() && depth > 0 {
-                self.stamp(&path, depth - 1, stamps);
-            } else if let (true, Ok(data), Ok(shown)) =
-                (kind.is_file() && has_use(&path), entry.metadata(), path.strip_prefix(&self.root))
-            {
-                let mut hasher = DefaultHasher::new();
-                (data.len(), data.modified().ok()).hash(&mut hasher);
-                stamps.insert(shown.to_string_lossy().replace('\\', "/"), hasher.finish());
+            match path.strip_prefix(&self.root) {
+                _ if is_skipped => true,
+                Ok(_) if kind.is_dir() => depth == 0 || self.walk(&path, depth - 1, each),
+                Ok(below) if kind.is_file() => {
+                    each(below.to_string_lossy().replace('\\', "/"), &entry)
+                }
+                _ => true,
             }
-        }
+        })
     }
 
     /// The version of a file; none if it is gone, or too large to be read at every change.
@@ -283,10 +278,6 @@ impl ExampleEntry {
 }
 
 /// What a file is, by its ending and, for TOML, by its sections; none if the page has no use for it.
-fn is_skipped(name: &str) -> bool {
-    name.starts_with('.') || ["target", "node_modules"].contains(&name)
-}
-
 /// Whether the ending of a file is one that [`kind_of`] knows.
 fn has_use(path: &Path) -> bool {
     let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());

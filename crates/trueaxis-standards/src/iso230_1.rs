@@ -27,7 +27,7 @@ use crate::conditions::geometry::{Geometry, Kind, Reference};
 use crate::conditions::{Conditions, Extent};
 use crate::judge::{Decision, decide};
 use profile::Profiles;
-use trueaxis_geometry::statistics::coverage_factor;
+use trueaxis_geometry::statistics::{coverage_factor, pooled_deviation};
 use trueaxis_input::sheet::{Cells, Sheet};
 use trueaxis_input::{Diagnostics, Dimension, Place};
 
@@ -495,7 +495,7 @@ fn points(sheet: &Sheet, problems: &mut Diagnostics) -> Option<Surface> {
         heights_mm: groups.iter().map(|(_, v)| mean(v)).collect(),
         lattice: None,
         counts: groups.iter().map(|(_, v)| v.len() as f64).collect(),
-        scatter: profile::pooled(groups.iter().map(|(_, v)| v)),
+        scatter: pooled_deviation(groups.iter().map(|(_, v)| v.as_slice())),
     })
 }
 

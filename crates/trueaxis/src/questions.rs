@@ -96,7 +96,7 @@ use std::path::{Path, PathBuf};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_motion::{CONTROLS, control_named};
 use trueaxis_nc::Control;
-use trueaxis_report::{DrawingError, Report, document, not_finite};
+use trueaxis_report::{Report, document, not_finite};
 
 /// Receives the part that is done, 0 to 1.
 pub type Tell<'a> = &'a (dyn Fn(f64) + Sync + 'a);
@@ -159,14 +159,6 @@ pub trait Answer {
     /// What is looked through for figures that cannot be: the document, or of a long table the rows that have them.
     fn examined(&self, problems: &Diagnostics) -> Value {
         self.document(problems)
-    }
-
-    /// As a page that opens offline.
-    ///
-    /// # Errors
-    /// What the drawing library says.
-    fn page(&self) -> Result<String, DrawingError> {
-        self.report().html()
     }
 
     /// Whether the verdict is "yes", where there is one.

@@ -142,9 +142,9 @@ class PredictTab implements TabHandle {
     const { piece } = this;
     if (this.base && piece) {
       piece.what_if.take(what ?? null);
-      piece.view.take(k);
+      piece.view.magnifier.take(k);
       if (page || what) this.showPage(PAGES.find(([name]) => name === page)?.[0] ?? this.page);
-    } else if (!this.drawing_page.hidden) this.drawing?.map.take(k);
+    } else if (!this.drawing_page.hidden) this.drawing?.map.magnifier.take(k);
     this.app.keep("predict", { study: this.study });
   }
 
@@ -177,7 +177,7 @@ class PredictTab implements TabHandle {
     this.base = null;
     if (!this.drawing) {
       this.drawing = new Drawing(this.drawing_page, this.app);
-      this.drawing.map.onMagnified = (k) => this.app.keep("predict", { k });
+      this.drawing.map.magnifier.onMoved = (k) => this.app.keep("predict", { k });
     }
     this.drawing.show(study, frame);
   }
@@ -217,7 +217,7 @@ class PredictTab implements TabHandle {
       correct: (error, text) => this.tryIt(() => what_if.correct(error, text)),
     });
     const view = new PieceView(scene);
-    view.onMagnified = (k) => this.app.keep("predict", { k });
+    view.magnifier.onMoved = (k) => this.app.keep("predict", { k });
     const built = {
       summary,
       view,

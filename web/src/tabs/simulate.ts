@@ -9,7 +9,7 @@ import { tabKey } from "../keys.ts";
 import { Exaggeration } from "../scene/exaggeration.ts";
 import { withModels } from "../scene/models.ts";
 import { MachineView } from "../scene/view.ts";
-import { Simulation, type Job, type Moment } from "./simulate/answers.ts";
+import { bodyOf, Simulation, type Job, type Moment } from "./simulate/answers.ts";
 import { Choices, dropTarget, type Choice, type Dropped } from "./simulate/choices.ts";
 import { Curves } from "./simulate/curves.ts";
 import { Find } from "./simulate/find.ts";
@@ -224,11 +224,11 @@ class SimulateTab implements TabHandle {
     if (this.kept.size > 4 && oldest) this.kept.delete(oldest);
   }
 
-  private job(keep_going: boolean): Job | null {
+  private job(): Job | null {
     const { machine, program, setup, control } = this.choice;
     const what = this.dropped ?? program;
     if (!machine || !what) return null;
-    return { machine, program: what, keep_going, ...(setup ? { setup } : {}), ...(control ? { control } : {}) };
+    return { machine, program: what, ...(setup ? { setup } : {}), ...(control ? { control } : {}) };
   }
 
   // ---- the set-up ----
@@ -261,7 +261,7 @@ class SimulateTab implements TabHandle {
     this.stop?.abort();
     const stop = new AbortController();
     this.stop = stop;
-    const job = this.job(keep_going);
+    const job = this.job();
     this.clear();
     try {
       await this.showMachine(stop.signal);
@@ -279,7 +279,7 @@ class SimulateTab implements TabHandle {
         this.busy.hidden = false;
         return;
       }
-      const simulation = await this.simulate(job, stop);
+      const simulation = await this.simulate({ ...job, keep_going }, stop);
       if (stop.signal.aborted) return;
       await this.take(simulation);
     } catch (error) {
@@ -523,16 +523,14 @@ class SimulateTab implements TabHandle {
   /** What makes the deviation at the present block. */
   private whyHere(): void {
     const { moment, simulation } = this;
-    const { machine, program, setup, control } = this.choice;
-    if (!machine || !simulation || !moment) return;
+    const job = this.job();
+    if (!job || !simulation || !moment) return;
     if (moment.line < 1 || moment.program !== 0) {
       const message = moment.line < 1 ? "no block runs at this moment" : "this block is in a subprogram";
       this.app.fail(new Refusal("why-here", message, "Choose a block of the main program."));
       return;
     }
-    const what = this.dropped ? { name: this.dropped.name, text: this.dropped.text } : { program };
-    const asked = { machine, ...what, ...(setup ? { setup } : {}), ...(control ? { control } : {}) };
-    void this.why.show(asked, moment.line, simulation.header.marks);
+    void this.why.show(bodyOf(job), moment.line, simulation.header.marks);
   }
 
   /** The tool of the set-up in place of that of the machine file. */

@@ -1,8 +1,8 @@
 //! How well a model does: in sample, held out, against the floor, against no model.
 
 use super::adequacy::Scatter;
-use std::collections::BTreeMap;
 use trueaxis_measure::measure::Readings;
+use trueaxis_measure::measure::repeats::places;
 use trueaxis_measure::unknowns::design::Design;
 
 /// Fewer repeats say little of the noise.
@@ -114,23 +114,11 @@ pub fn repeatability(
     weights: &[f64],
     residuals: &[[f64; 3]],
 ) -> (Option<Rms>, Option<Scatter>) {
-    let mut places: BTreeMap<_, Vec<usize>> = BTreeMap::new();
-    for i in 0..readings.len() {
-        let of = readings.instruments[i];
-        // Of a touch probe the axes are the reading: no two are the same.
-        let is_left_out = weights.get(i) == Some(&0.0);
-        if is_left_out || design.instruments[of as usize].kind.triggers() {
-            continue;
-        }
-        let command = readings.commands[i].map(|q| (q * 1e6).round() as i64);
-        let n = readings.directions[i];
-        let direction = [n.x, n.y, n.z].map(|v| (v * 1e6).round() as i64);
-        let side = readings.approaches[i].map(|a| a.signum() as i8);
-        let feed = readings.motions[i].feed_mm_per_s.map(|f| (f * 1e6).round() as i64);
-        places.entry((of, command, direction, side, feed)).or_default().push(i);
-    }
+    // Of a touch probe the axes are the reading: no two are the same.
+    let triggers = |i: usize| design.instruments[readings.instruments[i] as usize].kind.triggers();
+    let places = places(readings, |i| weights.get(i) != Some(&0.0) && !triggers(i));
     let (mut noise, mut length, mut angle) = (Mean::default(), Mean::default(), Mean::default());
-    for rows in places.values().filter(|rows| rows.len() > 1) {
+    for rows in places.iter().filter(|rows| rows.len() > 1) {
         let instrument = &design.instruments[readings.instruments[rows[0]] as usize];
         let kind = if instrument.sight.is_angle() { &mut angle } else { &mut length };
         let freedom = (rows.len() - 1) as f64 / rows.len() as f64;

@@ -15,7 +15,7 @@ use trueaxis_machine::axis::{AxisKind, Travel};
 use trueaxis_nc::Control;
 use trueaxis_nc::moves::Origin;
 use trueaxis_report::numbers::fixed;
-use trueaxis_report::{Columns, Figure, Report, Section, Standing, Table};
+use trueaxis_report::{Columns, Figure, Report, Section, Standing, Table, Verdict};
 
 /// Everything that a report of a simulation shows.
 #[derive(Clone, Copy)]
@@ -177,11 +177,11 @@ pub fn clock(seconds: f64) -> String {
 pub fn simulation_report<'a>(s: Simulation<'a>, series: Option<&'a Series>) -> Report<'a> {
     let name = Path::new(s.program).file_name().map_or(s.program.into(), |n| n.to_string_lossy());
     let chain = s.machine.chain_text();
-    let (standing, word, sentence) = verdict(&s);
+    let verdict = verdict(&s);
     let drawn = series.map(|series| [path_section(s, series), deviation_curves(s, series)]);
     Report::new(format!("{name} on {}", s.machine.name()))
         .line(format!("{} · {chain} · {}", control_name(s.control), clock(s.summary.time_s)))
-        .verdict(standing, word, sentence)
+        .verdict(verdict.standing, verdict.word, verdict.sentence)
         .section(issue_section(&s))
         .section(summary_section(s.summary))
         .sections(s.machined.map(|machined| stock_section(&s, machined)))
@@ -199,14 +199,14 @@ pub fn simulation_report<'a>(s: Simulation<'a>, series: Option<&'a Series>) -> R
 }
 
 /// The result in a word and a sentence, the same for text, page and document.
-pub(super) fn verdict(s: &Simulation<'_>) -> (Standing, &'static str, String) {
+pub(super) fn verdict(s: &Simulation<'_>) -> Verdict {
     let count = |n: u64, noun: &str| format!("{n} {noun}{}", if n == 1 { "" } else { "s" });
     let critical = s.issues.list.iter().filter(|t| t.critical).map(|t| t.stretches).sum::<u64>();
     let all = s.issues.found();
     let errors = s.run.problems.iter().filter(|d| d.severity == Severity::Error).count() as u64;
     let left_out = s.run.motion_left_out().count() as u64;
     let beyond = s.run.beyond_equipment().count() as u64;
-    match (critical, all - critical) {
+    let (standing, word, sentence) = match (critical, all - critical) {
         _ if errors == 0 && left_out > 0 => {
             let functions = count(left_out, "function");
             let sentence = format!("{functions} of motion not executed: see the diagnostics");
@@ -244,7 +244,8 @@ pub(super) fn verdict(s: &Simulation<'_>) -> (Standing, &'static str, String) {
             let sentence = format!("{}{also} found", count(critical, "critical issue"));
             (Standing::Bad, "CRITICAL", sentence)
         }
-    }
+    };
+    Verdict { standing, word: word.to_owned(), sentence }
 }
 
 fn summary_section(summary: &Summary) -> Section<'static> {

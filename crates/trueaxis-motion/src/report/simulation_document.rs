@@ -6,7 +6,7 @@ use super::tool_states::ToolStateEntry;
 use crate::{AxisUse, Drift, Issue, IssueKind, Reversal, Worst, shown, tool_standings, unit};
 use schemars::JsonSchema;
 use serde::Serialize;
-use trueaxis_report::{Keyed, Standing};
+use trueaxis_report::{Keyed, Verdict};
 
 /// A simulation of a program on a machine: `trueaxis/simulate/1`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -27,7 +27,7 @@ pub struct SimulationDocument<'a> {
     /// Whether a set-up was given; without one work offsets and tool lengths are 0.
     pub set_up_given: bool,
     /// The result.
-    pub verdict: VerdictEntry,
+    pub verdict: Verdict,
     /// The whole time, s.
     pub time_s: f64,
     /// Time of rapid moves, s.
@@ -155,30 +155,6 @@ pub struct ReversalEntry {
     pub program: u32,
     /// The time, s.
     pub time_s: f64,
-}
-
-/// The result in a word and a sentence.
-#[derive(Debug, Serialize, JsonSchema)]
-pub struct VerdictEntry {
-    /// `good`: nothing endangers part or machine and no time is lost; `bad`; `open`: neither.
-    #[schemars(extend("enum" = ["good", "bad", "open"]))]
-    pub standing: &'static str,
-    /// Such as `CRITICAL`.
-    pub word: &'static str,
-    /// What that means.
-    pub sentence: String,
-}
-
-impl VerdictEntry {
-    fn of(s: &Simulation<'_>) -> Self {
-        let (standing, word, sentence) = verdict(s);
-        let standing = match standing {
-            Standing::Good => "good",
-            Standing::Bad => "bad",
-            Standing::Open => "open",
-        };
-        Self { standing, word, sentence }
-    }
 }
 
 /// An issue over a stretch of the path.
@@ -327,7 +303,7 @@ impl<'a> SimulationDocument<'a> {
             programs: &s.run.programs,
             control: control_name(s.control),
             set_up_given: s.setup.given,
-            verdict: VerdictEntry::of(s),
+            verdict: verdict(s),
             time_s: summary.time_s,
             rapid_s: summary.rapid_s,
             dwell_s: summary.dwell_s,

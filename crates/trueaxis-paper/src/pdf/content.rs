@@ -3,7 +3,7 @@
 use crate::PrintError;
 use serde::Serialize;
 use std::borrow::Cow;
-use trueaxis_report::{Columns, Figure, Heading, Item, Report, Row, Section, Standing, Table};
+use trueaxis_report::{Columns, Figure, Heading, Item, Report, Row, Section, Table, Verdict};
 
 /// Rows of a table on paper, some forty pages; more are read by programs.
 const MOST_ROWS: usize = 2000;
@@ -18,17 +18,10 @@ struct Content<'a> {
     entries: &'a [(String, String)],
     instruments: Option<Block<'a>>,
     logo: Option<String>,
-    verdict: Option<Verdict<'a>>,
+    verdict: Option<&'a Verdict>,
     sections: Vec<Titled<'a>>,
     signatures: &'a [String],
     made: String,
-}
-
-#[derive(Serialize)]
-struct Verdict<'a> {
-    standing: &'static str,
-    word: &'a str,
-    sentence: &'a str,
 }
 
 #[derive(Serialize)]
@@ -94,15 +87,6 @@ pub(super) fn files(report: &Report<'_>) -> Result<Files, PrintError> {
     for section in report.on_page() {
         sections.push(titled(section, &mut files)?);
     }
-    let verdict = report.verdict.as_ref().map(|v| Verdict {
-        standing: match v.standing {
-            Standing::Good => "good",
-            Standing::Bad => "bad",
-            Standing::Open => "open",
-        },
-        word: &v.word,
-        sentence: &v.sentence,
-    });
     let content = Content {
         title: &report.title,
         lines: &report.lines,
@@ -110,7 +94,7 @@ pub(super) fn files(report: &Report<'_>) -> Result<Files, PrintError> {
         entries: &heading.entries,
         instruments: heading.table.as_ref().map(table),
         logo,
-        verdict,
+        verdict: report.verdict.as_ref(),
         sections,
         signatures: &heading.signatures,
         made: report.made_by(),

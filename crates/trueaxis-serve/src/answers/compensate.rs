@@ -14,13 +14,17 @@ use std::path::{Path, PathBuf};
 use trueaxis::compensate::program::{Proof, Rewritten};
 use trueaxis::compensate::tables::Target;
 use trueaxis::files;
+use trueaxis::input::Diagnostics;
+use trueaxis::plan::extension;
 use trueaxis::predict::holes::Compensation;
 use trueaxis::questions::{
-    Adapt, Answer, CompensateProgram, CompensateTables, CompensateValues, MachineChoice, ValuesForm,
+    Adapt, Answer, CompensateProgram, CompensateTables, CompensateValues, MachineChoice, Question,
+    ValuesForm,
 };
 use trueaxis::report::{
     AdaptDocument, CompensationDocument, DiagnosticEntry, ProgramDocument, TablesDocument,
 };
+use trueaxis::simulate::control_named;
 
 /// Changed lines that go to the page.
 const MOST_CHANGES: usize = 300;
@@ -162,6 +166,24 @@ impl Request for CompensateProgramRequest {
     }
 }
 
+/// What every answer of this room has: its document, its report, its files.
+struct Made {
+    document: Value,
+    shown: ShownEntry,
+    made: MadeEntry,
+}
+
+/// Puts a question and keeps its files; `from`: the versions of what it reads.
+fn made<Q: Question>(
+    question: &Q,
+    (desk, job): (&Desk, &Job),
+    from: Vec<(String, String)>,
+) -> Result<(Made, Diagnostics), Refusal> {
+    let (mut found, problems) = ask(question, job)?;
+    let (document, shown) = (found.document(&problems), ShownEntry::of(&found));
+    Ok((Made { document, shown, made: desk.keep(found.files(), from) }, problems))
+}
+
 fn along(proof: &Proof) -> Vec<f64> {
     let five = |b: &trueaxis::compensate::program::BlockResidual| {
         let (tip, axis) =
@@ -292,13 +314,9 @@ impl Request for CompensateTablesRequest {
             machine_only: self.machine_only.unwrap_or(false),
         };
         let from = versions(desk, [&self.machine].into_iter().chain(&self.piece));
-        let (mut found, problems) = ask(&question, job)?;
-        Ok(Reply::json(&CompensateTablesAnswer {
-            document: found.document(&problems),
-            shown: ShownEntry::of(&found),
-            made: desk.keep(found.files(), from),
-            diagnostics: entries(&problems),
-        }))
+        let (Made { document, shown, made }, problems) = made(&question, (desk, job), from)?;
+        let diagnostics = entries(&problems);
+        Ok(Reply::json(&CompensateTablesAnswer { document, shown, made, diagnostics }))
     }
 }
 
@@ -371,13 +389,9 @@ impl Request for CompensateValuesRequest {
             form: ValuesForm::Csv,
         };
         let from = versions(desk, [&self.machine]);
-        let (mut found, problems) = ask(&question, job)?;
-        Ok(Reply::json(&CompensateValuesAnswer {
-            document: found.document(&problems),
-            shown: ShownEntry::of(&found),
-            made: desk.keep(found.files(), from),
-            diagnostics: entries(&problems),
-        }))
+        let (Made { document, shown, made }, problems) = made(&question, (desk, job), from)?;
+        let diagnostics = entries(&problems);
+        Ok(Reply::json(&CompensateValuesAnswer { document, shown, made, diagnostics }))
     }
 }
 
@@ -411,12 +425,8 @@ impl Request for CompensateAdaptRequest {
     fn answer(self, desk: &Desk, job: &Job) -> Result<Reply<Self>, Refusal> {
         let study = desk.project.path(&self.study)?;
         let stem = study.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let ending = |control: &str| match control {
-            "sinumerik" => "mpf",
-            "heidenhain" => "h",
-            "linuxcnc" => "ngc",
-            _ => "nc",
-        };
+        // The library refuses a control that it does not know.
+        let ending = |name: &str| control_named(name).map_or("nc", extension);
         let beside = |ending: &str| study.with_file_name(format!("{stem}-adapted.{ending}"));
         let question = Adapt {
             output: self.control.map(|control| (beside(ending(&control)), control)),
@@ -426,12 +436,8 @@ impl Request for CompensateAdaptRequest {
             study: study.clone(),
         };
         let from = versions(desk, [&self.study]);
-        let (mut found, problems) = ask(&question, job)?;
-        Ok(Reply::json(&CompensateAdaptAnswer {
-            document: found.document(&problems),
-            shown: ShownEntry::of(&found),
-            made: desk.keep(found.files(), from),
-            diagnostics: entries(&problems),
-        }))
+        let (Made { document, shown, made }, problems) = made(&question, (desk, job), from)?;
+        let diagnostics = entries(&problems);
+        Ok(Reply::json(&CompensateAdaptAnswer { document, shown, made, diagnostics }))
     }
 }

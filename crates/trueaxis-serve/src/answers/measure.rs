@@ -9,12 +9,12 @@ use crate::request::{Reply, Request, ask};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use std::collections::BTreeMap;
 use std::path::Path;
 use trueaxis::files::disk;
 use trueaxis::input::{CsvTable, Diagnostics};
 use trueaxis::machine::axis::AxisKind;
 use trueaxis::measure::path::Path as MeasuredPath;
+use trueaxis::measure::repeats::{self, Repeatability};
 use trueaxis::measure::virtual_campaign::{
     Disturb, VirtualCampaign, measure, read_virtual, set_times,
 };
@@ -295,69 +295,29 @@ impl Request for MeasureCheckRequest {
         let Some(readings) = readings.filter(|_| !problems.has_errors()) else {
             return Err(Refusal::unusable(&problems));
         };
-        let places = places(&readings);
-        let repeated = || places.values().filter(|rows| rows.len() > 1);
-        let count = if repeated().next().is_some() { channels(instrument) } else { 0 };
+        let places = repeats::places(&readings, |_| true);
+        let found = repeats::repeatability(instrument, &readings, &places);
         let channels =
-            (0..count).map(|c| RepeatedChannel::of(instrument, c, &readings, repeated()));
+            found.iter().enumerate().map(|(c, of)| RepeatedChannel::of(instrument, c, of));
         Ok(Reply::json(&MeasureCheckAnswer {
             readings: readings.len(),
             places: places.len(),
-            repeated: repeated().count(),
+            repeated: places.iter().filter(|rows| rows.len() > 1).count(),
             channels: channels.collect(),
             diagnostics: entries(&problems),
         }))
     }
 }
 
-/// A touch probe has none: its axes are the reading.
-fn channels(instrument: &Instrument) -> usize {
-    if instrument.kind.triggers() { 0 } else { instrument.kind.channels().len() }
-}
-
-/// Where, from which sides, in which direction and at which feed, in 1e-6 mm or rad.
-type Place = (Vec<i64>, Vec<i64>);
-
-/// The rows of each place.
-fn places(readings: &Readings) -> BTreeMap<Place, Vec<usize>> {
-    let mut places: BTreeMap<Place, Vec<usize>> = BTreeMap::new();
-    let fine = |v: f64| (v * 1e6).round() as i64;
-    for i in 0..readings.len() {
-        let n = readings.directions[i];
-        let feed = readings.motions[i].feed_mm_per_s.unwrap_or(0.0);
-        let how = readings.approaches[i].iter().copied().chain([n.x, n.y, n.z, feed]);
-        let command = readings.commands[i].iter().map(|q| fine(*q)).collect();
-        places.entry((command, how.map(fine).collect())).or_default().push(i);
-    }
-    places
-}
-
 impl RepeatedChannel {
-    fn of<'r>(
-        instrument: &Instrument,
-        channel: usize,
-        readings: &Readings,
-        repeated: impl Iterator<Item = &'r Vec<usize>>,
-    ) -> Self {
-        let (mut square, mut freedom, mut largest) = (0.0, 0, 0.0_f64);
-        for rows in repeated {
-            let values = || rows.iter().map(|row| readings.values[*row][channel]);
-            let mean = values().sum::<f64>() / rows.len() as f64;
-            square += values().map(|v| (v - mean).powi(2)).sum::<f64>();
-            freedom += rows.len() - 1;
-            let (low, high) = values()
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
-                    (low.min(v), high.max(v))
-                });
-            largest = largest.max(high - low);
-        }
+    fn of(instrument: &Instrument, channel: usize, found: &Repeatability) -> Self {
         let (unit, scale) = if instrument.sight.is_angle() { ("urad", 1e6) } else { ("um", 1e3) };
         Self {
             channel: instrument.kind.channels()[channel],
             unit,
-            s: (square / freedom.max(1) as f64).sqrt() * scale,
-            degrees_of_freedom: freedom,
-            largest_range: largest * scale,
+            s: found.s * scale,
+            degrees_of_freedom: found.degrees_of_freedom,
+            largest_range: found.largest_range * scale,
             stated: instrument.noise[channel] * scale,
         }
     }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis::questions::Answer;
-use trueaxis::report::{Item, Section, Standing, Table};
+use trueaxis::report::{Item, Section, Table, Verdict};
 
 /// A report of the command line without its pictures.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -13,32 +13,9 @@ pub(super) struct ShownEntry {
     /// The lines below it.
     lines: Vec<String>,
     /// The verdict; null if there is none.
-    verdict: Option<ShownVerdict>,
+    verdict: Option<Verdict>,
     /// Its sections in their order.
     sections: Vec<ShownSection>,
-}
-
-/// The result in one word and in one sentence.
-#[derive(Debug, Serialize, JsonSchema)]
-pub(super) struct ShownVerdict {
-    /// How it is coloured.
-    standing: ShownStanding,
-    /// The word, such as `PASS`.
-    word: String,
-    /// What that means; may be empty.
-    sentence: String,
-}
-
-/// How a verdict is coloured.
-#[derive(Debug, Serialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum ShownStanding {
-    /// Nothing to object.
-    Good,
-    /// Out of limits, or without result.
-    Bad,
-    /// Neither.
-    Open,
 }
 
 /// A part of the report.
@@ -95,15 +72,7 @@ impl ShownEntry {
         Self {
             title: report.title,
             lines: report.lines,
-            verdict: report.verdict.map(|v| ShownVerdict {
-                standing: match v.standing {
-                    Standing::Good => ShownStanding::Good,
-                    Standing::Bad => ShownStanding::Bad,
-                    Standing::Open => ShownStanding::Open,
-                },
-                word: v.word,
-                sentence: v.sentence,
-            }),
+            verdict: report.verdict,
             sections: report.sections.iter().filter_map(ShownSection::of).collect(),
         }
     }

@@ -1,6 +1,7 @@
 //! Profiles of lines: readings of an indicator or a laser, or steps of a level or a mirror added up.
 
 use std::collections::BTreeMap;
+use trueaxis_geometry::statistics::pooled_deviation;
 use trueaxis_input::sheet::{Cells, Sheet, heading};
 use trueaxis_input::{Diagnostics, Dimension};
 
@@ -149,21 +150,14 @@ pub fn read(sheet: &Sheet, base_mm: Option<f64>, problems: &mut Diagnostics) -> 
         lines.push((name.clone(), first, second));
     }
     let all = groups.iter().flat_map(|(_, sides)| sides.iter().flat_map(BTreeMap::values));
-    Some(Profiles { lines, scatter: pooled(all), of_angles: angle.is_some() })
+    Some(Profiles {
+        lines,
+        scatter: pooled_deviation(all.map(Vec::as_slice)),
+        of_angles: angle.is_some(),
+    })
 }
 
 type Grouped = BTreeMap<i64, Vec<f64>>;
-
-/// Standard deviation within groups, and its degrees of freedom.
-pub fn pooled<'a>(groups: impl Iterator<Item = &'a Vec<f64>>) -> Option<(f64, f64)> {
-    let (mut squares, mut free) = (0.0, 0.0);
-    for group in groups {
-        let mean = group.iter().sum::<f64>() / group.len() as f64;
-        squares += group.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
-        free += group.len() as f64 - 1.0;
-    }
-    (free > 0.0).then(|| ((squares / free).sqrt(), free))
-}
 
 fn profile(
     name: &str,

@@ -15,10 +15,11 @@ import {
 import { download, fill, h } from "../../dom.ts";
 import { diverging, divergingDark } from "../../figure/colours.ts";
 import { csvOf, finelyRounded, roundNumber } from "../../figure/figure.ts";
-import { factor, number } from "../../format.ts";
+import { number } from "../../format.ts";
 import type { Frame } from "../../frame.ts";
 import { MachineView } from "../../scene/view.ts";
 import { isDark, onTheme } from "../../theme.ts";
+import { Magnifier } from "./magnifier.ts";
 import type { DrawingHeader } from "./types.ts";
 
 /** Errors that the server names for each point. */
@@ -33,16 +34,7 @@ const STILL_PX = 4;
 export class DeviationMap {
   private readonly view: MachineView;
   private readonly point = h("div", { class: "panel map-point", dataTest: "point", role: "status" });
-  private readonly factor_text = h("output", { class: "factor" });
-  private readonly slider = h("input", {
-    type: "range",
-    min: "0",
-    max: "100",
-    step: "1",
-    class: "exaggeration",
-    ariaLabel: "Magnification of the deviations",
-    oninput: () => this.magnifyAnew(),
-  });
+  readonly magnifier = new Magnifier(AT_FIRST, () => this.magnified());
   private mesh: InstancedMesh | null = null;
   private frame: Frame<DrawingHeader> | null = null;
   /** The number of the feature of each point. */
@@ -50,11 +42,7 @@ export class DeviationMap {
   private marked: ReadonlySet<number> | null = null;
   /** The point that is explained. */
   private picked = 0;
-  private most = 1;
   private range = 1;
-  private k = 1;
-  /** The user moved the slider. */
-  onMagnified: (state: string | null) => void = () => {};
 
   constructor(host: HTMLElement) {
     const scene = h("div", { class: "predict-scene" });
@@ -99,8 +87,8 @@ export class DeviationMap {
             ),
           ),
           "deviations",
-          this.slider,
-          this.factor_text,
+          this.magnifier.slider,
+          this.magnifier.text,
           save,
         ),
       ),
@@ -119,10 +107,8 @@ export class DeviationMap {
     const most = Math.max(1e-6, Math.abs(deviations[worst] ?? 0));
     this.range = finelyRounded(most);
     // At the end of the slider the greatest deviation is a tenth of the part.
-    this.most = Math.max(1, roundNumber((0.1 * extent(frame.f32("places_mm"))) / (most / 1e3)));
     this.build(deviations.length);
-    this.slider.value = String(AT_FIRST);
-    this.magnify(AT_FIRST);
+    this.magnifier.begin(Math.max(1, roundNumber((0.1 * extent(frame.f32("places_mm"))) / (most / 1e3))));
     // The camera is set when the part is there.
     this.view.setMachine({ links: [], models: [], tool: { length_mm: 0, diameter_mm: null } });
     this.pick(worst);
@@ -168,28 +154,8 @@ export class DeviationMap {
     this.view.requestRender();
   }
 
-  private magnifyAnew(): void {
-    this.magnify(Number(this.slider.value));
-    this.onMagnified(this.state);
-  }
-
-  /** Where the slider of the magnification stands, for the address; null where it began. */
-  get state(): string | null {
-    return Number(this.slider.value) === AT_FIRST ? null : this.slider.value;
-  }
-
-  /** As an address says. */
-  take(state: string | undefined): void {
-    if (state === undefined || state === this.slider.value || !(Number(state) >= 0)) return;
-    this.slider.value = state;
-    this.magnify(Number(this.slider.value));
-  }
-
-  private magnify(slider: number): void {
-    this.k = slider === 0 ? 1 : Math.max(1, roundNumber(this.most ** (slider / 100)));
-    this.factor_text.textContent = factor(this.k);
-    this.slider.setAttribute("aria-valuetext", factor(this.k));
-    this.view.overlay.note("factor", this.k === 1 ? "true size (×1)" : `deviations ${factor(this.k)}`, "actual");
+  private magnified(): void {
+    this.view.overlay.note("factor", this.magnifier.words, "actual");
     this.view.overlay.note("sign", "positive: material is left; press a point for its causes");
     this.place();
   }
@@ -197,7 +163,7 @@ export class DeviationMap {
   /** Where a point is drawn. */
   private at(i: number): Vector3 {
     const [places, normals] = [this.frame?.f32("places_mm"), this.frame?.f32("normals")];
-    const off = (this.k * (this.frame?.f32("deviation_um")[i] ?? 0)) / 1e3;
+    const off = (this.magnifier.k * (this.frame?.f32("deviation_um")[i] ?? 0)) / 1e3;
     const along = (k: number): number => (places?.[3 * i + k] ?? 0) + off * (normals?.[3 * i + k] ?? 0);
     return new Vector3(along(0), along(1), along(2));
   }

@@ -14,9 +14,10 @@ import {
 import { download, h } from "../../dom.ts";
 import { diverging, divergingDark } from "../../figure/colours.ts";
 import { csvOf, finelyRounded, roundNumber } from "../../figure/figure.ts";
-import { deg, factor, number, um } from "../../format.ts";
+import { deg, number, um } from "../../format.ts";
 import { MachineView } from "../../scene/view.ts";
 import { cssColour, isDark, onTheme } from "../../theme.ts";
+import { Magnifier } from "./magnifier.ts";
 import { firstShown } from "./sections.ts";
 import { partOf, type PieceFrame } from "./types.ts";
 
@@ -33,8 +34,7 @@ interface Ring {
 
 export class PieceView {
   private readonly view: MachineView;
-  private readonly slider: HTMLInputElement;
-  private readonly factor_text = h("output", { class: "factor" });
+  readonly magnifier = new Magnifier(AT_FIRST, () => this.magnified(), roundTo2);
   private readonly outline = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
   private readonly top = new Mesh(
     new BufferGeometry(),
@@ -44,22 +44,9 @@ export class PieceView {
   private chosen = 0;
   private frame: PieceFrame | null = null;
   private range = 1;
-  private k = 1;
-  /** The user moved the slider. */
-  onMagnified: (state: string | null) => void = () => {};
-  private most = 1;
 
   constructor(host: HTMLElement) {
     this.view = new MachineView(host);
-    this.slider = h("input", {
-      type: "range",
-      min: "0",
-      max: "100",
-      step: "1",
-      class: "exaggeration",
-      ariaLabel: "Magnification of the deviations",
-      oninput: () => this.magnifyAnew(),
-    });
     const save = h(
       "button",
       {
@@ -73,7 +60,7 @@ export class PieceView {
       h(
         "div",
         { class: "scene-bottom" },
-        h("div", { class: "scene-control" }, "deviations", this.slider, this.factor_text, save),
+        h("div", { class: "scene-control" }, "deviations", this.magnifier.slider, this.magnifier.text, save),
       ),
     );
     for (const object of [this.outline, this.top, this.marked]) object.frustumCulled = false;
@@ -87,47 +74,23 @@ export class PieceView {
     if (fresh) {
       this.chosen = firstShown(frame.header.sections);
       const radius = Math.max(...frame.header.sections.map((s) => s.radius_mm));
-      // At the end of the slider the greatest error is about half of the radius.
-      this.most = roundNumber((radius / (most / 1e3)) * 0.4);
       this.range = finelyRounded(most);
-      this.slider.value = String(AT_FIRST);
-      this.k = this.factorAt(AT_FIRST);
-    } else if (most > this.range || most < 0.2 * this.range) this.range = finelyRounded(most);
-    this.draw();
-    if (!fresh) return;
+      // At the end of the slider the greatest error is about half of the radius.
+      this.magnifier.begin(roundNumber((radius / (most / 1e3)) * 0.4));
+    } else {
+      if (most > this.range || most < 0.2 * this.range) this.range = finelyRounded(most);
+      this.draw();
+      return;
+    }
     this.view.setMachine({ links: [], models: [], tool: { length_mm: 0, diameter_mm: null } });
     this.view.addToWorkpiece(this.outline);
     this.view.addToWorkpiece(this.top);
     this.view.addToWorkpiece(this.marked);
-    this.magnify(AT_FIRST);
+    this.magnified();
   }
 
-  private factorAt(slider: number): number {
-    return slider === 0 ? 1 : Math.max(1, roundTo2(this.most ** (slider / 100)));
-  }
-
-  private magnifyAnew(): void {
-    this.magnify(Number(this.slider.value));
-    this.onMagnified(this.state);
-  }
-
-  /** Where the slider of the magnification stands, for the address; null where it began. */
-  get state(): string | null {
-    return Number(this.slider.value) === AT_FIRST ? null : this.slider.value;
-  }
-
-  /** As an address says. */
-  take(state: string | undefined): void {
-    if (state === undefined || state === this.slider.value || !(Number(state) >= 0)) return;
-    this.slider.value = state;
-    this.magnify(Number(this.slider.value));
-  }
-
-  private magnify(slider: number): void {
-    this.k = this.factorAt(slider);
-    this.factor_text.textContent = factor(this.k);
-    this.slider.setAttribute("aria-valuetext", factor(this.k));
-    this.view.overlay.note("factor", this.k === 1 ? "true size (×1)" : `deviations ${factor(this.k)}`, "actual");
+  private magnified(): void {
+    this.view.overlay.note("factor", this.magnifier.words, "actual");
     this.view.overlay.note("sign", "error positive: material left; lines: nominal");
     this.draw();
   }
@@ -142,7 +105,7 @@ export class PieceView {
       rings.forEach((ring, i) => all.set(pick(ring), i * m * width));
       return all;
     };
-    this.view.setExaggeration(this.k);
+    this.view.setExaggeration(this.magnifier.k);
     this.view.setSurface(
       {
         positions: join((r) => r.nominal, 3),
@@ -207,7 +170,9 @@ export class PieceView {
     const ring = this.frame ? ringsOf(this.frame)[this.chosen * BETWEEN] : undefined;
     if (!section || !ring) return;
     // A little outside, so that the surface does not hide it.
-    const points = ring.nominal.map((v, i) => (i % 3 === 2 ? v : 1.004 * (v + this.k * (ring.moved[i] as number))));
+    const points = ring.nominal.map((v, i) =>
+      i % 3 === 2 ? v : 1.004 * (v + this.magnifier.k * (ring.moved[i] as number)),
+    );
     this.marked.geometry.setAttribute("position", new BufferAttribute(points, 3));
     this.marked.material.color.set(cssColour("--actual"));
     // In front, as the first view sees it.
@@ -222,7 +187,8 @@ export class PieceView {
     const last = rings.at(-1);
     if (!last) return;
     const points = new Float32Array(3 * (m + 1));
-    for (let i = 0; i < 3 * m; i++) points[i] = (last.nominal[i] as number) + this.k * (last.moved[i] as number);
+    for (let i = 0; i < 3 * m; i++)
+      points[i] = (last.nominal[i] as number) + this.magnifier.k * (last.moved[i] as number);
     for (let i = 0; i < 3 * m; i++)
       points[3 * m + (i % 3)] = (points[3 * m + (i % 3)] as number) + (points[i] as number) / m;
     this.top.geometry.setAttribute("position", new BufferAttribute(points, 3));

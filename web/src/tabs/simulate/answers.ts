@@ -38,6 +38,11 @@ export interface Job {
   keep_going?: boolean;
 }
 
+/** As the server is asked. */
+export function bodyOf<J extends Pick<Job, "program">>({ program, ...rest }: J) {
+  return typeof program === "string" ? { ...rest, program } : { ...rest, ...program };
+}
+
 export interface Watch {
   progress: (share: number) => void;
   signal: AbortSignal;
@@ -56,8 +61,7 @@ export class Simulation {
   }
 
   static async run(app: App, job: Job, watch: Watch): Promise<Simulation> {
-    const { program, ...rest } = job;
-    const body = typeof program === "string" ? { ...rest, program } : { ...rest, ...program };
+    const body = bodyOf(job);
     const frame = await app.api.ask("simulate", body, {
       onProgress: watch.progress,
       signal: watch.signal,
