@@ -72,6 +72,52 @@ fn what_an_answer_made_is_saved_and_no_file_of_a_person_is_replaced() {
     }
 }
 
+/// Two places: 1 and 3, then 10, 10 and 13 µm, and one that was read once: s = √((2 + 6) / (1 + 2)) with 3 degrees of freedom,
+/// whatever the order of the rows and of the columns, with decimal points or commas.
+#[test]
+fn law_repeatability_is_that_of_the_readings_by_hand_in_any_order() {
+    let served = serve_kept(repository(), &client::OPEN);
+    let checked = |text: &str| {
+        let body = json!({ "campaign": "examples/04_plan/probe-ball.toml", "instrument": "probe", "name": "r.csv", "text": text });
+        let answer = served.ask("measure-check", &body);
+        (answer.status, answer.json())
+    };
+    let (place, other) = ("90,90,210,80,-140", "90,85,210,85.686,-129.7696");
+    let rows = [
+        format!("{place},1,0,5"),
+        format!("{other},10,0,5"),
+        format!("{place},3,0,5"),
+        format!("{other},13,0,5"),
+        format!("{other},10,0,5"),
+        "0,90,310,80,-160,7,7,7".to_owned(),
+    ];
+    let head = "C,A,X,Y,Z,x_um,y_um,z_um\n";
+    let (status, found) = checked(&(head.to_owned() + &rows.join("\n")));
+    assert_eq!(status, 200, "{found}");
+    assert_eq!((&found["places"], &found["repeated"]), (&json!(3), &json!(2)));
+    let x = &found["channels"][0];
+    let s = x["s"].as_f64().expect("s");
+    assert!((s - (8.0_f64 / 3.0).sqrt()).abs() < 1e-9, "{found}");
+    assert_eq!((&x["degrees_of_freedom"], &x["unit"]), (&json!(3), &json!("um")));
+    assert!((x["largest_range"].as_f64().expect("a range") - 3.0).abs() < 1e-9);
+    assert_eq!(found["channels"][1]["s"], json!(0.0));
+    let mut turned = rows.clone();
+    turned.reverse();
+    let semicolons = |row: &String| row.replace(',', ";").replace('.', ",");
+    let german: Vec<String> = turned.iter().map(semicolons).collect();
+    let (status, other) = checked(&(head.replace(',', ";") + &german.join("\n")));
+    assert_eq!(status, 200, "{other}");
+    let difference = other["channels"][0]["s"].as_f64().expect("s") - s;
+    assert!(difference.abs() < 1e-12, "{other}");
+    // What is no reading is named with its line.
+    for (bad, code) in [("nan", "not-a-number"), ("", "not-a-number"), ("12 um", "not-a-number")] {
+        let (status, refused) = checked(&format!("{head}{place},1,0,5\n{place},{bad},0,5\n"));
+        assert_eq!(status, 422, "{bad}: {refused}");
+        let first = &refused["error"]["diagnostics"][0];
+        assert_eq!((&first["code"], &first["line"]), (&json!(code), &json!(3)), "{bad}: {refused}");
+    }
+}
+
 #[test]
 fn a_history_is_that_of_the_files_of_a_folder() {
     let served = serve_kept(repository(), &client::OPEN);

@@ -40,3 +40,27 @@ fn law_a_bent_way_is_not_missed() {
         assert!(residual.tip.value < 1e-4, "{residual:?}");
     }
 }
+
+/// X is too long by 0.1 µm per mm: at 10, 20 and 30 mm the tip is off by 1, 2 and 3 µm, elsewhere the tool stands at zero.
+/// The same blocks in increments, in another order of words and with empty lines between them give the same.
+#[test]
+fn law_the_root_mean_square_is_that_of_the_ends_of_blocks() {
+    let text = "machine = { name = 'm', chain = 'w b X Y Z t' }\n[tool]\nlength = '100 mm'\n\
+                [motion.X]\nEXX = { polynomial = ['0 um', '10 um'], scale = '100 mm' }\n";
+    let machine = Machine::check("m.toml", text, &NoTables).0.expect("a machine");
+    let found = |program: &str| {
+        let program = Program::new("p.ngc", program.as_bytes().to_vec(), Control::LinuxCnc);
+        let (set_up, options) = (SetUp::default(), ProgramOptions::default());
+        let (done, problems) = compensate_program(&machine, &program, &set_up, &options);
+        done.unwrap_or_else(|| panic!("{problems:?}")).proof
+    };
+    let absolute = found("G21 G90 G94 F500\nG1 X0\nG1 X10\nG1 X20\nG1 X30\nM2\n");
+    let square = absolute.before.tip_end_rms_mm.powi(2) * absolute.compared as f64;
+    assert!((square - 14e-6).abs() < 1e-12, "{square}");
+    assert!((absolute.before.tip_end.value - 3e-3).abs() < 1e-9);
+    assert!(absolute.after.tip_end_rms_mm < 1e-3 && absolute.before.axis_end_rms_rad == 0.0);
+    let increments = found("G94 G21 F500 G91\n\nG1 X0\nX10 G1\n\nX10\nX10\nM2\n");
+    assert_eq!(increments.compared, absolute.compared);
+    let difference = increments.before.tip_end_rms_mm - absolute.before.tip_end_rms_mm;
+    assert!(difference.abs() < 1e-12, "{difference}");
+}
