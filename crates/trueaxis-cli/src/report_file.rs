@@ -10,9 +10,14 @@ use trueaxis_paper::ReportFile;
 pub fn write_report(file: &ReportFile, printed: Report<'_>) -> Result<(), Outcome> {
     let shown = file.path().display().to_string();
     let mut problems = Diagnostics::new();
-    let bytes = file
-        .print(printed, &mut problems)
-        .map_err(|e| unusable("no-report", &shown, &e.to_string(), "leave out --report"))?;
+    let bytes = file.print(printed, &mut problems).map_err(|e| {
+        unusable(
+            "no-report",
+            &shown,
+            &e.to_string(),
+            "name another logo in --heading, or leave out --report",
+        )
+    })?;
     files::write_in_folder(file.path(), &bytes).map_err(|e| {
         let message = format!("cannot be written: {e}");
         unusable("unwritable-file", &shown, &message, "name another --report, or leave it out")

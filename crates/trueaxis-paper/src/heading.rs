@@ -71,7 +71,8 @@ fn read_logo(item: &Item<'_>, folder: &Path) -> Option<Logo> {
     };
     let kind = LogoKind::of(&bytes).filter(|_| bytes.len() <= LARGEST_LOGO_BYTES);
     if kind.is_none() {
-        let message = format!("the logo `{}` is not a picture of up to 4 MiB", path.display());
+        let message =
+            format!("the logo `{}` is not a whole picture of up to 4 MiB", path.display());
         item.error("bad-logo", message, "name an SVG, PNG or JPEG file");
     }
     Some(Logo { bytes, kind: kind? })
@@ -92,7 +93,8 @@ mod tests {
 
     fn read_text(text: &str) -> (Option<Heading>, Vec<&'static str>) {
         let logo = ("logo.svg".into(), "<?xml version='1.0'?>\n<svg/>".to_owned());
-        let files = Files::none().with_texts([("r.toml".into(), text.to_owned()), logo]);
+        let cut = ("cut.svg".into(), "<svg><path d='M0 0".to_owned());
+        let files = Files::none().with_texts([("r.toml".into(), text.to_owned()), logo, cut]);
         let mut problems = Diagnostics::new();
         let heading = read_heading(&files, "r.toml".as_ref(), &mut problems);
         (heading, problems.iter().map(|d| d.code).collect())
@@ -122,6 +124,7 @@ mod tests {
         let code = |rest: &str| read_text(&format!("{HEAD}{rest}")).1;
         assert_eq!(code("logo = 'no.svg'"), ["unreadable-file"]);
         assert_eq!(code("logo = 'r.toml'"), ["bad-logo"]);
+        assert_eq!(code("logo = 'cut.svg'"), ["bad-logo"]);
         assert_eq!(code("signatures = 'me'"), ["wrong-type"]);
         assert_eq!(code("custommer = 'me'"), ["unknown-key"]);
         assert_eq!(read_text("").1, ["missing-key"]);

@@ -71,7 +71,8 @@ fn a_heading_and_a_logo_are_set() {
 
 #[test]
 fn a_logo_that_is_broken_is_an_error() {
-    let logo = Some(Logo { bytes: b"\x89PNG\r\n\x1a\n".to_vec(), kind: LogoKind::Png });
+    let bytes = b"\x89PNG\r\n\x1a\n with the right ends IEND\xaeB`\x82".to_vec();
+    let logo = Some(Logo { bytes, kind: LogoKind::Png });
     let heading = Some(Heading { logo, ..Heading::default() });
     let why = print(&Report { heading, ..report(1) }, Form::Pdf).unwrap_err();
     assert!(why.to_string().starts_with("the report cannot be typeset"), "{why}");

@@ -38,24 +38,28 @@ pub enum LogoKind {
 }
 
 impl LogoKind {
-    /// The kind by the first bytes of a file; none for any other.
+    /// The kind by the first and the last bytes of a file; none for any other, and for one that was cut off.
     ///
     /// ```
     /// use trueaxis_report::LogoKind;
-    /// assert_eq!(LogoKind::of(b"\x89PNG\r\n\x1a\n..."), Some(LogoKind::Png));
+    /// assert_eq!(LogoKind::of(b"\x89PNG\r\n\x1a\n... IEND\xaeB`\x82"), Some(LogoKind::Png));
     /// assert_eq!(LogoKind::of(b"<svg xmlns='http://www.w3.org/2000/svg'/>"), Some(LogoKind::Svg));
+    /// assert_eq!(LogoKind::of(b"\x89PNG\r\n\x1a\n..."), None);
     /// assert_eq!(LogoKind::of(b"GIF89a"), None);
     /// ```
     pub fn of(bytes: &[u8]) -> Option<Self> {
+        let bytes = bytes.trim_ascii_end();
         if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
-            return Some(Self::Png);
+            return bytes.ends_with(b"IEND\xaeB`\x82").then_some(Self::Png);
         }
         if bytes.starts_with(b"\xff\xd8\xff") {
-            return Some(Self::Jpeg);
+            return bytes.ends_with(b"\xff\xd9").then_some(Self::Jpeg);
         }
         // Before the root stand a declaration and comments, if anything.
-        let begin = bytes.get(..2000).unwrap_or(bytes);
-        String::from_utf8_lossy(begin).contains("<svg").then_some(Self::Svg)
+        let begin = String::from_utf8_lossy(bytes.get(..2000).unwrap_or(bytes));
+        // A comment may follow the root.
+        let is_closed = bytes.windows(6).any(|w| w == b"</svg>") || bytes.ends_with(b"/>");
+        (begin.contains("<svg") && is_closed).then_some(Self::Svg)
     }
 
     /// As the web calls it.
