@@ -390,7 +390,7 @@ export type Grouped2 =
 /**
  * How a verdict is coloured.
  */
-export type ShownStanding = "good" | "bad" | "open";
+export type Standing = "good" | "bad" | "open";
 /**
  * What stands in a section.
  */
@@ -10842,7 +10842,7 @@ export interface ShownEntry {
   /**
    * The verdict; null if there is none.
    */
-  verdict: ShownVerdict | null;
+  verdict: Verdict | null;
   /**
    * Its sections in their order.
    */
@@ -10851,13 +10851,13 @@ export interface ShownEntry {
 /**
  * The result in one word and in one sentence.
  */
-export interface ShownVerdict {
+export interface Verdict {
   /**
    * How it is coloured.
    */
-  standing: ShownStanding;
+  standing: Standing;
   /**
-   * The word, such as `PASS`.
+   * `PASS`.
    */
   word: string;
   /**
@@ -13598,7 +13598,7 @@ export interface SimulationDocument {
   /**
    * The result.
    */
-  verdict: ServeSimulateVerdictEntry;
+  verdict: Verdict;
   /**
    * The whole time, s.
    */
@@ -13704,23 +13704,6 @@ export interface ServeSimulateMachineEntry {
    * Its kinematic chain from workpiece to tool.
    */
   chain: string;
-}
-/**
- * The result in a word and a sentence.
- */
-export interface ServeSimulateVerdictEntry {
-  /**
-   * `good`: nothing endangers part or machine and no time is lost; `bad`; `open`: neither.
-   */
-  standing: "good" | "bad" | "open";
-  /**
-   * Such as `CRITICAL`.
-   */
-  word: string;
-  /**
-   * What that means.
-   */
-  sentence: string;
 }
 /**
  * The motion of one axis.
@@ -15339,7 +15322,7 @@ export interface Simulate {
   /**
    * The result.
    */
-  verdict: SimulateVerdictEntry;
+  verdict: Verdict;
   /**
    * The whole time, s.
    */
@@ -15478,23 +15461,6 @@ export interface SimulateMachineEntry {
    * Its kinematic chain from workpiece to tool.
    */
   chain: string;
-}
-/**
- * The result in a word and a sentence.
- */
-export interface SimulateVerdictEntry {
-  /**
-   * `good`: nothing endangers part or machine and no time is lost; `bad`; `open`: neither.
-   */
-  standing: "good" | "bad" | "open";
-  /**
-   * Such as `CRITICAL`.
-   */
-  word: string;
-  /**
-   * What that means.
-   */
-  sentence: string;
 }
 /**
  * The motion of one axis.

@@ -3812,7 +3812,7 @@ class SimulateDocument(Record):
     #: Whether a set-up was given; without one work offsets and tool lengths are 0.
     set_up_given: bool
     #: The result.
-    verdict: SimulateDocument.VerdictEntry
+    verdict: SimulateDocument.Verdict
     #: The whole time, s.
     time_s: float
     #: Time of rapid moves, s.
@@ -3865,13 +3865,13 @@ class SimulateDocument(Record):
         #: Its kinematic chain from workpiece to tool.
         chain: str
 
-    class VerdictEntry(Record):
-        """The result in a word and a sentence."""
-        #: `good`: nothing endangers part or machine and no time is lost; `bad`; `open`: neither.
-        standing: str
-        #: Such as `CRITICAL`.
+    class Verdict(Record):
+        """The result in one word and in one sentence."""
+        #: How it is coloured.
+        standing: Any
+        #: `PASS`.
         word: str
-        #: What that means.
+        #: What that means; may be empty.
         sentence: str
 
     class AxisEntry(Record):
