@@ -893,6 +893,8 @@ export interface Documents {
   "serve-measure": ServeMeasure;
   "serve-models-request": ServeModelsRequest;
   "serve-models": ServeModels;
+  "serve-new-machine-request": ServeNewMachineRequest;
+  "serve-new-machine": ServeNewMachine;
   "serve-open-request": ServeOpenRequest;
   "serve-open": ServeOpen;
   "serve-plan-request": ServePlanRequest;
@@ -903,6 +905,10 @@ export interface Documents {
   "serve-predict": ServePredict;
   "serve-project-request": ServeProjectRequest;
   "serve-project": ServeProject;
+  "serve-readings-columns-request": ServeReadingsColumnsRequest;
+  "serve-readings-columns": ServeReadingsColumns;
+  "serve-readings-text-request": ServeReadingsTextRequest;
+  "serve-readings-text": ServeReadingsText;
   "serve-refused": ServeRefused;
   "serve-report-request": ServeReportRequest;
   "serve-report": ServeReport;
@@ -11578,6 +11584,22 @@ export interface ServeEvaluateRequest {
    * The window of a drift test, a time with its unit.
    */
   window?: string | null;
+  /**
+   * The text of a mapping file that counts instead of the one beside the readings.
+   */
+  mapping?: string | null;
+  /**
+   * The text of conditions that count instead of those of a file.
+   */
+  stated?: string | null;
+  /**
+   * Tolerances, such as `A=10 um`.
+   */
+  tolerances?: string[] | null;
+  /**
+   * Whether a value alone decides, without its uncertainty.
+   */
+  is_simple?: boolean | null;
 }
 /**
  * An evaluation. Arrays: `line` (f64: x, y and half the width of the band for each point of the bands), `points`
@@ -12361,6 +12383,54 @@ export interface SurfaceEntry {
    * How many triangles it has.
    */
   triangles: number;
+}
+/**
+ * The text of a new machine file; nothing is saved.
+ */
+export interface ServeNewMachineRequest {
+  /**
+   * What the rotary axes carry: `three-axis`, `table-table`, `head-head`, `head-table`.
+   */
+  kind: string;
+  /**
+   * The name of the machine.
+   */
+  name: string;
+  /**
+   * Linear axes that carry the workpiece; as in the template of the kind if it is left out.
+   */
+  workpiece?: string[] | null;
+  /**
+   * The rotary axis that tilts, `A` or `B`.
+   */
+  tilting?: string | null;
+  /**
+   * Travels by axis, from and to, mm or deg; null: all around. As in the template if an axis is left out.
+   */
+  travels?: {
+    /**
+     * @minItems 2
+     * @maxItems 2
+     */
+    [k: string]: [number, number] | null;
+  } | null;
+  /**
+   * Axes whose plus is against ISO 841.
+   */
+  reversed?: string[] | null;
+  /**
+   * The reference line of Z at Z = 0 above the origin of the machine frame, mm.
+   */
+  height_mm?: number | null;
+}
+/**
+ * A new machine file.
+ */
+export interface ServeNewMachine {
+  /**
+   * Its text.
+   */
+  text: string;
 }
 /**
  * The text of a file.
@@ -13173,6 +13243,144 @@ export interface ServeProjectFileEntry {
   bytes: number;
 }
 /**
+ * What the columns of a table are: of a file of the project, or of a text.
+ */
+export interface ServeReadingsColumnsRequest {
+  /**
+   * The file of the readings.
+   */
+  path?: string | null;
+  /**
+   * Their text instead.
+   */
+  text?: string | null;
+  /**
+   * What separates the columns; found if it is left out. A space stands for any number of them.
+   */
+  separator?: string | null;
+  /**
+   * The line of the headings, counted from 1; 0 where there are none; found if it is left out.
+   */
+  heading_line?: number | null;
+  /**
+   * The text of a mapping file; that beside the file of the readings if it is left out.
+   */
+  mapping?: string | null;
+}
+/**
+ * A table as it stands in its file.
+ */
+export interface ServeReadingsColumns {
+  /**
+   * The table; null where no two columns were found.
+   */
+  table: ServeReadingsColumnsTableEntry | null;
+  /**
+   * The text of the mapping file; null if there is none.
+   */
+  mapping: string | null;
+  /**
+   * Whether it says more than what the columns of one table are, so that only its text can be edited.
+   */
+  is_mapping_text: boolean;
+}
+/**
+ * Its layout.
+ */
+export interface ServeReadingsColumnsTableEntry {
+  /**
+   * What separates its columns.
+   */
+  separator: string;
+  /**
+   * The sign before decimals that the mapping file states.
+   */
+  decimal: string | null;
+  /**
+   * What the line after the last reading begins with, as the mapping file states it.
+   */
+  until: string | null;
+  /**
+   * The line of the headings, counted from 1; null where there are none.
+   */
+  heading_line: number | null;
+  /**
+   * The line of the headings, or of the first reading.
+   */
+  first_line: number;
+  /**
+   * Rows between headings and readings.
+   */
+  rows_below_headings: number;
+  /**
+   * Rows of readings.
+   */
+  readings: number;
+  /**
+   * Its columns.
+   */
+  columns: TableColumnEntry[];
+}
+/**
+ * A column of it.
+ */
+export interface TableColumnEntry {
+  /**
+   * Its heading; empty where there is none.
+   */
+  heading: string;
+  /**
+   * What it is, by its heading or the mapping file; null if that is not known.
+   */
+  role: string | null;
+  /**
+   * Its unit; null if that is not known.
+   */
+  unit: string | null;
+  /**
+   * Whether its sign is changed.
+   */
+  negate: boolean;
+  /**
+   * Its first values.
+   */
+  values: string[];
+  /**
+   * Its words, each with what it means; null if that is not known.
+   */
+  words: [string, string | null][];
+}
+/**
+ * The text of a file that was dropped, in any usual encoding.
+ */
+export interface ServeReadingsTextRequest {
+  /**
+   * Its bytes in base64.
+   */
+  base64: string;
+  /**
+   * Its encoding by a name of the WHATWG standard; found by its bytes if it is left out.
+   */
+  encoding?: string | null;
+}
+/**
+ * The text of readings.
+ */
+export interface ServeReadingsText {
+  /**
+   * The text.
+   */
+  text: string;
+  /**
+   * The encoding by its name in the WHATWG standard.
+   */
+  encoding: string;
+  /**
+   * Whether nothing in the file proves that encoding.
+   */
+  is_assumed: boolean;
+}
+/**
  * The answer to a request by POST that is refused.
  */
 export interface ServeRefused {
@@ -13222,6 +13430,14 @@ export interface ServeReportRequest {
    * The standard, for `evaluate`.
    */
   standard?: string | null;
+  /**
+   * Tolerances such as `A=10 um`, for `evaluate`.
+   */
+  tolerances?: string[] | null;
+  /**
+   * Whether a value alone decides, without its uncertainty, for `evaluate`.
+   */
+  is_simple?: boolean | null;
   /**
    * The control of the programs, for `plan`.
    */
@@ -14375,6 +14591,35 @@ export interface StandardEntry {
    * Its title.
    */
   title: string;
+  /**
+   * The columns that its table may have.
+   */
+  columns: ColumnEntry[];
+}
+/**
+ * A column that a table of readings may have.
+ */
+export interface ColumnEntry {
+  /**
+   * Its name in a mapping file.
+   */
+  name: string;
+  /**
+   * What it holds.
+   */
+  title: string;
+  /**
+   * Its usual units; none where it has no unit.
+   */
+  units: string[];
+  /**
+   * Whether several of them are numbered: `up_1`, `up_2`.
+   */
+  is_numbered: boolean;
+  /**
+   * What its words mean; none where it has numbers or any words.
+   */
+  words: string[];
 }
 /**
  * One line of a program, as `trueaxis trace` shows its block.

@@ -279,7 +279,7 @@ const CRATES: [(&str, &[&str]); 32] = [
     ("trueaxis-study", &["", "report"]),
     ("trueaxis-python", &["", "paper", "study"]),
     ("trueaxis-live", &["", "report"]),
-    ("trueaxis-serve", &["", "live", "paper"]),
+    ("trueaxis-serve", &["", "live", "paper", "templates"]),
     ("trueaxis-cli", &["", "live", "paper", "serve", "study", "templates"]),
 ];
 

@@ -99,3 +99,10 @@ export function factor(k: number): string {
   const digits = k >= 10 || Number.isInteger(k) ? 0 : 1;
   return `×${fixed(k, digits).replace(/\B(?=(\d{3})+(?!\d))/g, k >= 1e4 ? NARROW_SPACE : "")}`;
 }
+
+/** What stands between semicolons. */
+export const listed = (text: string): string[] =>
+  text
+    .split(";")
+    .map((one) => one.trim())
+    .filter(Boolean);

@@ -10,6 +10,7 @@ import "./style/compensate.css";
 import "./style/predict.css";
 import "./style/simulate.css";
 import "./style/simulate-source.css";
+import "./style/file-dialog.css";
 import "./style/set-up.css";
 import "./style/simulate-time.css";
 import "./style/live.css";

@@ -264,7 +264,9 @@ test("a missing set-up is said first and is one form away", async () => {
     writeFileSync(file, `${readFileSync(file, "utf8")}# mine\n`);
     await text.fill((await text.inputValue()).replace("90.5", "91"));
     await page.click('[data-test="set-up-save"]');
-    await page.waitForFunction(() => /changed elsewhere/.test(document.querySelector(".set-up-note").textContent));
+    await page.waitForFunction(() =>
+      /changed elsewhere/.test(document.querySelector(`[data-test="set-up-note"]`).textContent),
+    );
     assert.match(readFileSync(file, "utf8"), /90\.5 mm[\s\S]*# mine/);
     assert.deepEqual(complaints, []);
   } finally {

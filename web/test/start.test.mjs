@@ -1,8 +1,12 @@
 // The first page: every example opens its tab, every machine file is there, a dropped file is not sent anywhere.
 
 import assert from "node:assert/strict";
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import path from "node:path";
 import { test } from "node:test";
-import { open, picture, root, serve } from "./served.mjs";
+import { findings } from "./axe.mjs";
+import { cli, open, picture, root, serve } from "./served.mjs";
 import { browser, server } from "./shared.mjs";
 
 /** What the server says of its folder. */
@@ -109,5 +113,59 @@ test("the printed link with its token opens the page; its requests and its socke
     await without.close();
   } finally {
     await served.stop();
+  }
+});
+
+test("a machine of one's own by questions, with a mistake, is drawn, moves, and is read by the command line", async () => {
+  const folder = mkdtempSync(path.join(tmpdir(), "trueaxis-start-"));
+  const own = await serve(folder);
+  try {
+    const { page, context, complaints } = await open(browser, own.address);
+    await page.click('[data-test="new-machine"]');
+    const field = (name) => page.locator(`.new-machine-dialog [data-field="${name}"]`);
+    await field("name").fill("Mill 7");
+    await field("workpiece-Y").check();
+    await field("tilting").selectOption("B");
+    await field("X-from").fill("850");
+    await field("X-to").fill("0");
+    assert.match(await page.textContent('[data-test="new-machine-wrong"]'), /X goes from the smaller/);
+    await page.click('[data-test="new-machine-save"]');
+    assert.match(await page.textContent('[data-test="new-machine-note"]'), /X goes from the smaller/);
+    await field("X-from").fill("0");
+    await field("X-to").fill("850,5");
+    await field("C-sign").selectOption("other");
+    assert.match(await field("Y-sign").textContent(), /the table moves to minus Y \(ISO 841\)/);
+    assert.match(await field("C-sign").textContent(), /the table turns clockwise, seen from \+Z \(ISO 841\)/);
+    await picture(page, "start-new-machine");
+    assert.deepEqual(await findings(page), []);
+    await page.click('[data-test="new-machine-save"]');
+    await page.waitForFunction(() =>
+      decodeURIComponent(location.hash).includes("machine=machines/mill-7/machine.toml"),
+    );
+    await page.waitForFunction(
+      () => document.querySelector("#tab-describe .describe-head h1")?.textContent === "Mill 7",
+    );
+    const machine = path.join(folder, "machines/mill-7/machine.toml");
+    const document = await cli("check", machine);
+    assert.equal(document.chain, "w C' B' Y' b X Z t");
+    const x = document.axes.find((axis) => axis.name === "X");
+    assert.deepEqual(x.travel_mm, [0, 850.5]);
+    // Signs by moving it: with the other sense +90° of C is −90° of ISO 841.
+    const pose = await cli("pose", machine, "--at", "X=100 C=90");
+    assert.ok(Math.abs(pose.nominal.tip_mm[1] + 100) < 1e-9, JSON.stringify(pose.nominal));
+    await picture(page, "describe-new-machine");
+    // The name is taken: nothing is replaced.
+    await page.goto(own.address);
+    await page.click('[data-test="new-machine"]');
+    await field("name").fill("mill 7");
+    await page.click('[data-test="new-machine-save"]');
+    await page.waitForFunction(() =>
+      /is there already/.test(document.querySelector('[data-test="new-machine-note"]').textContent),
+    );
+    assert.deepEqual(complaints, []);
+    await context.close();
+  } finally {
+    await own.stop();
+    rmSync(folder, { recursive: true });
   }
 });

@@ -220,5 +220,68 @@ assert.deepEqual(
 assert.throws(() => sheet.take("c.csv", "deviation_um\n1\n"), /1 rows without positions, and there are 2 stations/);
 assert.throws(() => sheet.take("d.csv", "X,angle_urad\n1,2\n"), /no column deviation_um/);
 
+// A mapping file from what was chosen: a heading that stands twice is named by its number, runs are numbered.
+const { mappingText, roles, wrongColumns } = await vite.ssrLoadModule("/src/tabs/standards/mappingtext.ts");
+const chosen = (heading, role, unit = "", more = {}) => ({ heading, role, unit, negate: false, words: [], ...more });
+const columns = [
+  chosen("Pos", "target", "mm"),
+  chosen("d", "up", "um"),
+  chosen("d", "up", "um", { negate: true }),
+  chosen("R", "direction", "", {
+    words: [
+      ["V", "up"],
+      ['"Z"', "down"],
+      ["?", ""],
+    ],
+  }),
+  chosen("x", ""),
+];
+const names = roles(columns, ["up", "down"]);
+assert.deepEqual(names, ["target", "up_1", "up_2", "direction", ""]);
+assert.equal(wrongColumns(columns, names), null);
+assert.match(wrongColumns(columns, ["target", "target", "", "", ""]), /Two columns are "target"/);
+assert.match(wrongColumns([], []), /two columns/);
+assert.equal(
+  mappingText(
+    "a/b.csv",
+    { separator: "\t", decimal: ",", heading_line: 3, first_line: 3, rows_below_headings: 1, until: "Mean ", columns },
+    names,
+  ),
+  `# What the columns of b.csv are.
+separator = "tab"
+decimal = ","
+rows_below_headings = 1
+skip_rows = 2
+until = "Mean"
+
+[columns.target]
+column = "Pos"
+unit = "mm"
+
+[columns.up_1]
+column = 2
+unit = "um"
+
+[columns.up_2]
+column = 3
+unit = "um"
+sign = -1
+
+[columns.direction]
+column = "R"
+words = { up = ["V"], down = ["\\"Z\\""] }
+`,
+);
+const { tomlOf } = await vite.ssrLoadModule("/src/toml.ts");
+const field = (section, key, kind) => ({ section, key, label: key, example: "", kind });
+assert.equal(
+  tomlOf("Heading", [field("", "name"), field("r", "date", "date"), field("r.i[]", "s", "texts"), field("e", "x")], {
+    name: ' a "b" ',
+    "r.date": "2026-11-28",
+    "r.i[].s": "one, two",
+  }),
+  '# Heading\nname = "a \\"b\\""\n\n[r]\ndate = 2026-11-28\n\n[[r.i]]\ns = ["one", "two"]\n',
+);
+
 await vite.close();
 console.log("unit checks passed");

@@ -94,3 +94,50 @@ fn what_is_there_is_left_alone() {
     assert_eq!(ran.status, 2);
     assert!(ran.err.contains("error[unwritable-folder]"), "{}", ran.err);
 }
+
+/// A machine by answers: every choice gives a file that is taken, with the chain that was answered; an axis whose plus is against
+/// ISO 841 goes where the usual one goes with the other sign.
+#[test]
+fn law_a_machine_by_answers_is_taken_and_its_signs_are_those_of_iso_841() {
+    use trueaxis_templates::{Answers, Kind, machine_file};
+    let temporary = Folder::new("answers");
+    let tip = |name: &str, at: &str| {
+        let text = done(&["pose", &temporary.path(name), "--at", at, "--format", "json"], 0);
+        let pose: serde_json::Value = serde_json::from_str(&text).expect("a pose");
+        let vector = |key: &str| -> Vec<f64> {
+            let of = pose["nominal"][key].as_array().unwrap_or_else(|| panic!("{key}: {pose}"));
+            of.iter().map(|v| v.as_f64().expect("a number")).collect()
+        };
+        [vector("tip_mm"), vector("axis")].concat()
+    };
+    for kind in Kind::ALL {
+        let tiltings =
+            if kind == Kind::ThreeAxis { vec![None] } else { vec![Some('A'), Some('B')] };
+        for (tilting, table) in tiltings.into_iter().flat_map(|t| (0..8_u32).map(move |k| (t, k))) {
+            let chosen = |(i, axis): (usize, char)| (table >> i & 1 == 1).then_some(axis);
+            let workpiece = "XYZ".chars().enumerate().filter_map(chosen).collect();
+            let usual = Answers { tilting, workpiece, ..Answers::of(kind, "m") };
+            let reversed: Vec<char> =
+                "XYZ".chars().chain(tilting.map(|_| 'C')).chain(tilting).collect();
+            let other = Answers { reversed, ..usual.clone() };
+            for (name, answers) in [("usual.toml", &usual), ("other.toml", &other)] {
+                temporary.file(name, &machine_file(answers).expect("a machine file"));
+                done(&["check", &temporary.path(name)], 0);
+            }
+            let turned = |sign: f64| match tilting {
+                Some(tilting) => format!(" C={} {tilting}={}", 30.0 * sign, 20.0 * sign),
+                None => String::new(),
+            };
+            let at = |sign: f64| {
+                format!("X={} Y={} Z={}{}", 10.0 * sign, 20.0 * sign, sign, turned(sign))
+            };
+            let (plus, minus) = (tip("usual.toml", &at(1.0)), tip("other.toml", &at(-1.0)));
+            for (a, b) in plus.iter().zip(&minus) {
+                assert!((a - b).abs() < 1e-9, "{usual:?}: {plus:?} {minus:?}");
+            }
+            // ISO 841: seen from the workpiece the tool goes to plus, whatever carries it.
+            let (zero, x) = (tip("usual.toml", "X=0"), tip("usual.toml", "X=10"));
+            assert!((x[0] - zero[0] - 10.0).abs() < 1e-9, "{usual:?}");
+        }
+    }
+}

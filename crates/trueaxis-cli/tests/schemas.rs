@@ -245,6 +245,10 @@ const REQUESTS: &[(&str, &str)] = &[
     ("standards", r#"{}"#),
     ("evaluate", r#"{"standard": "iso230-2", "path": "examples/07_verify/x-axis-laser.csv"}"#),
     ("evaluate", r#"{"standard": "iso230-4", "path": "examples/07_verify/circle-xy.csv"}"#),
+    ("new-machine", r#"{"kind": "table-table", "name": "mill", "travels": {"C": null}}"#),
+    ("readings-text", r#"{"base64": "QWJ3ZWljaHVuZyBbtW1d"}"#),
+    ("readings-columns", r#"{"path": "examples/07_verify/x-axis-laser.csv"}"#),
+    ("readings-columns", r#"{"text": "Pos;dx\n0,5;1,25\n"}"#),
     ("report", r#"{"verb": "plan", "file": "examples/04_plan/probe-ball.toml"}"#),
     (
         "simulate",

@@ -2,7 +2,8 @@
 //!
 //! [`decode`] turns bytes into text and says which encoding it took for granted; [`read`] turns such a table into ours
 //! (`target_mm,run,direction,deviation_um`), every row on its own line of the source, so that each later problem
-//! names that line. What the headings do not tell is stated in a mapping file, [`Mapping`].
+//! names that line. What the headings do not tell is stated in a mapping file, [`Mapping`]; [`look`] shows a table before it is
+//! read, so that one can be written.
 //!
 //! ```
 //! use trueaxis_input::{Diagnostics, foreign};
@@ -18,6 +19,7 @@
 
 mod encoding;
 mod headings;
+mod look;
 mod mapped;
 mod mapping;
 mod notation;
@@ -26,6 +28,7 @@ mod table;
 pub use encoding::{Decoded, decode, decode_as, encoding_named};
 
 use crate::{Diagnostics, Files, Place};
+pub use look::{Look, LookAs, LookColumn, look};
 pub use mapping::{Mapping, read_mapping};
 use std::path::Path;
 pub use table::{Beside, is_ours, read};

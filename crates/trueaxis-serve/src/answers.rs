@@ -7,9 +7,11 @@ mod identify;
 mod live;
 mod machine;
 mod measure;
+mod new_machine;
 mod plan;
 mod predict;
 mod project;
+mod readings;
 mod report;
 mod settings;
 mod shown;
@@ -42,6 +44,7 @@ pub(crate) const QUESTIONS: &[Question] = questions! {
     Quick "save" => project::SaveRequest,
     Quick "save-made" => project::SaveMadeRequest,
     Quick "describe" => describe::DescribeRequest,
+    Quick "new-machine" => new_machine::NewMachineRequest,
     Quick "models" => describe::ModelsRequest,
     Quick "pose" => describe::PoseRequest,
     Quick "set-error" => describe::SetErrorRequest,
@@ -61,6 +64,8 @@ pub(crate) const QUESTIONS: &[Question] = questions! {
     Quick "live" => live::LiveRequest,
     Quick "standards" => evaluate::StandardsRequest,
     Quick "evaluate" => evaluate::EvaluateRequest,
+    Quick "readings-text" => readings::ReadingsTextRequest,
+    Quick "readings-columns" => readings::ReadingsColumnsRequest,
     Long "report" => report::ReportRequest,
     Long "simulate" => simulate_document::SimulateRequest,
     Long "trace" => trace::TraceRequest,

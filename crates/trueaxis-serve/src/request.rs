@@ -11,7 +11,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::marker::PhantomData;
 use trueaxis::files::disk;
-use trueaxis::input::Diagnostics;
+use trueaxis::input::{Diagnostics, Files};
 use trueaxis::report::{DiagnosticEntry, document};
 use trueaxis::{NamedSchema, questions};
 
@@ -54,8 +54,17 @@ pub(crate) fn ask<Q: questions::Question>(
     question: &Q,
     job: &Job,
 ) -> Result<(Q::Answer, Diagnostics), Refusal> {
+    ask_with(question, &disk(), job)
+}
+
+/// The same with other files than those of the disk.
+pub(crate) fn ask_with<Q: questions::Question>(
+    question: &Q,
+    files: &Files,
+    job: &Job,
+) -> Result<(Q::Answer, Diagnostics), Refusal> {
     let mut problems = Diagnostics::new();
-    match questions::ask(question, &disk(), &|part| job.tell(part), &mut problems) {
+    match questions::ask(question, files, &|part| job.tell(part), &mut problems) {
         Some(answer) => Ok((answer, problems)),
         None => Err(Refusal::unusable(&problems)),
     }

@@ -38,6 +38,7 @@
 //! ([`conditions`]). What is missing in a test is a diagnostic with the clause; what can be evaluated is. It knows no
 //! machine file.
 
+pub mod columns;
 pub mod conditions;
 pub mod coverage;
 mod deviations;

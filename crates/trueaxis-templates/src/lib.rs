@@ -8,6 +8,10 @@
 //! assert!(machine.text.contains("name = \"engraver\""));
 //! ```
 
+mod answers;
+
+pub use answers::{Answers, Travel, WrongAnswer, machine_file};
+
 use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_report::{NamedSchema, named_schema};
@@ -46,6 +50,11 @@ impl Kind {
             Self::HeadHead => include_str!("texts/machine-head-head.toml"),
             Self::HeadTable => include_str!("texts/machine-head-table.toml"),
         }
+    }
+
+    /// The rotary axis of its template that tilts.
+    fn tilting(self) -> Option<char> {
+        self.ball().and_then(|(_, tilts)| tilts.chars().next())
     }
 
     /// What a ball on the table is asked for: the unknown location errors, and the rotary axis that tilts; nothing without rotary axes.

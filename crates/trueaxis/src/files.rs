@@ -151,6 +151,15 @@ pub fn write(path: &Path, content: &[u8]) -> io::Result<()> {
     part.put_in_place()
 }
 
+/// The same for a file whose folder may be missing: it is made.
+///
+/// # Errors
+/// Whatever the disk says.
+pub fn write_with_folder(path: &Path, content: &[u8]) -> io::Result<()> {
+    scope::make_folder_of(path)?;
+    write(path, content)
+}
+
 /// Writes files into a folder that is new or empty: all of them or none. A folder of another name next to
 /// it is filled, then renamed.
 ///
@@ -190,9 +199,7 @@ pub fn write_folder(place: &Path, files: &[(String, String)]) -> io::Result<()> 
 /// # Errors
 /// What the disk says.
 pub fn write_in_folder(path: &Path, content: &[u8]) -> io::Result<()> {
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
-    folder.map_or(Ok(()), fs::create_dir_all)?;
-    write(path, content)?;
+    write_with_folder(path, content)?;
     written::note(path);
     Ok(())
 }

@@ -4,7 +4,9 @@ import type { ServeReport, ServeReportRequest } from "../../types.d.ts";
 import type { App, Tab, TabHandle } from "../app.ts";
 import type { FileKind } from "../api.ts";
 import { download, fill, h } from "../dom.ts";
-import { bytes } from "../format.ts";
+import { FileDialog } from "../filedialog.ts";
+import { bytes, listed } from "../format.ts";
+import { headingForm } from "./report/heading.ts";
 
 interface Verb {
   name: ServeReportRequest["verb"];
@@ -66,9 +68,13 @@ class ReportTab implements TabHandle {
   private made: Made | null = null;
   private stop = new AbortController();
   private last = "";
+  /** Tolerances of readings and how they decide, as the address states them. */
+  private judged: { tolerances: string | null; simple: string | null } = { tolerances: null, simple: null };
+  private readonly stating: FileDialog;
 
   constructor(host: HTMLElement, app: App) {
     this.app = app;
+    this.stating = new FileDialog(app, "heading", "Heading of reports", "Save and make the report");
     fill(
       host,
       h(
@@ -82,6 +88,7 @@ class ReportTab implements TabHandle {
           this.machine,
           this.standard,
           this.heading,
+          h("button", { dataTest: "state-heading", onclick: () => void this.stateHeading() }, "Heading …"),
           this.make,
           h("span", { class: "report-after" }, this.note, this.save, this.pdf, this.print),
         ),
@@ -111,6 +118,7 @@ class ReportTab implements TabHandle {
     this.verb.value = VERBS.some((v) => v.name === verb) ? verb : "predict";
     this.showFiles(params.file, params.machine ?? this.app.state.machine ?? undefined);
     if (params.standard) this.standard.value = params.standard;
+    this.judged = { tolerances: params.tolerances ?? null, simple: params.simple ?? null };
     // A link that names its file asks for the report; coming back to the tab does not ask again.
     const asked = this.asked();
     if (params.file && asked !== this.last) void this.run();
@@ -124,6 +132,7 @@ class ReportTab implements TabHandle {
       this.file.value,
       this.machine.hidden ? null : this.machine.value,
       this.standard.hidden ? null : this.standard.value,
+      this.judged,
     ]);
   }
 
@@ -176,7 +185,7 @@ class ReportTab implements TabHandle {
       verb: verb.name,
       file: this.file.value,
       ...(verb.needs_machine ? { machine: this.machine.value } : {}),
-      ...(verb.name === "evaluate" ? { standard: this.standard.value } : {}),
+      ...(verb.name === "evaluate" ? { standard: this.standard.value, ...this.decides() } : {}),
       ...(this.heading.value ? { heading: this.heading.value } : {}),
     };
     this.last = this.asked();
@@ -185,6 +194,7 @@ class ReportTab implements TabHandle {
       file: body.file,
       machine: body.machine ?? null,
       standard: body.standard ?? null,
+      ...this.judged,
     });
     this.stop.abort();
     const stop = new AbortController();
@@ -200,6 +210,29 @@ class ReportTab implements TabHandle {
       progress.done();
       this.make.disabled = false;
     }
+  }
+
+  private decides(): Pick<ServeReportRequest, "tolerances" | "is_simple"> {
+    const { tolerances, simple } = this.judged;
+    return tolerances ? { tolerances: listed(tolerances), is_simple: simple === "1" } : {};
+  }
+
+  /** A heading is stated in a form; one that is there is edited as text. */
+  private async stateHeading(): Promise<void> {
+    const path = this.heading.value || "report-heading.toml";
+    await this.stating.open({
+      title: ["Heading of reports"],
+      path,
+      form: (text) => (text === null ? headingForm() : null),
+      saved: (saved) => {
+        this.showFiles(this.file.value, this.machine.value);
+        this.heading.hidden = false;
+        if (![...this.heading.options].some((option) => option.value === saved))
+          this.heading.append(h("option", { value: saved }, saved));
+        this.heading.value = saved;
+        void this.run();
+      },
+    });
   }
 
   private take(made: Made | null): void {

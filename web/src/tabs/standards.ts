@@ -1,19 +1,23 @@
 /** Readings of instruments judged by ISO 230: charts, figures with their uncertainty, every target. */
 
 import type { ServeEvaluate, StandardEntry } from "../../types.d.ts";
-import type { Request } from "../api.ts";
+import { Refusal, type Request } from "../api.ts";
 import { diagnosticList, split, type App, type Tab, type TabHandle } from "../app.ts";
 import type { Params } from "../address.ts";
 import { fill, h } from "../dom.ts";
+import { FileDialog, type Stated } from "../filedialog.ts";
 import { keepFile, keptFile } from "../files.ts";
 import type { Figure } from "../figure/index.ts";
 import type { Frame } from "../frame.ts";
-import { NARROW_SPACE, number } from "../format.ts";
+import { listed, NARROW_SPACE, number } from "../format.ts";
 import { fileSelect, isAbort, Question, reportButton, showRefusal } from "./measure/ask.ts";
 import { dropOn, type TextFile } from "./measure/drop.ts";
 import { sheetTable } from "./measure/table.ts";
+import { ColumnsForm } from "./standards/columns.ts";
+import { conditionsForm } from "./standards/conditions.ts";
 import { as, kindOf, type Circular, type EvaluateDocument } from "./standards/documents.ts";
 import { drawPictures } from "./standards/pictures.ts";
+import { keepInProject } from "./standards/keep.ts";
 import { sheetsOf, tilesOf } from "./standards/tables.ts";
 import { takeDropped } from "./start.ts";
 
@@ -37,10 +41,37 @@ function guess(text: string): string | null {
   return BY_HEADING.find(([pattern]) => pattern.test(heading))?.[1] ?? null;
 }
 
-/** The form of a dropped file, by its ending as on the command line. */
-function formOf(name: string): string {
-  return /\.qif$/i.test(name) ? "qif" : /\.md$/i.test(name) ? "ecmc-md" : "csv";
+/** Problems that go away where it is said what the columns are. */
+const OF_COLUMNS = [
+  "unknown-headings",
+  "missing-unit",
+  "missing-column",
+  "duplicate-column",
+  "ambiguous-number",
+  "mixed-decimals",
+  "not-a-number",
+  "unknown-word",
+  "wrong-unit",
+];
+
+/** A file beside readings: `x.csv` has `x.toml` and `x.map.toml`. */
+const besideOf = (readings: string, ending: string): string => `${readings.replace(/\.[^./]*$/, "")}${ending}`;
+
+/** What was typed for a dropped file. */
+interface Typed {
+  mapping: string | null;
+  stated: string | null;
 }
+
+/** What tolerances look like: the figures of each standard. */
+const TOLERANCES: Record<string, string> = {
+  "iso230-1": "EC0Y=10 arcsec",
+  "iso230-3": "x.range=10 um; y.range=10 um",
+  "iso230-4": "G_ccw=15 um; G_cw=15 um",
+  "iso230-6": "E_d=20 um",
+  "iso230-7": "radial rotating.total=3 um",
+  "iso230-10": "offset of the ball from the spindle=5 um",
+};
 
 /** What the server is asked for; the machine is of the other tabs. */
 function asked({ machine: _, ...rest }: Params): string {
@@ -57,7 +88,10 @@ class StandardsTab implements TabHandle {
   private figures: Figure<never>[] = [];
   private standards: Standard[] = [];
   private dropped: TextFile | null = null;
+  private typed: Typed = { mapping: null, stated: null };
   private conditions: string | null = null;
+  private readonly columns: FileDialog;
+  private readonly stating: FileDialog;
   private standard = "iso230-2";
   private shown = false;
   /** The address that the answer on the page is of. */
@@ -67,6 +101,8 @@ class StandardsTab implements TabHandle {
   constructor(host: HTMLElement, app: App) {
     this.app = app;
     this.question = new Question(app, "evaluate");
+    this.columns = new FileDialog(app, "columns", "Columns of the readings", "Save and evaluate");
+    this.stating = new FileDialog(app, "conditions", "Conditions of the test", "Save and evaluate");
     const { left, right } = split(host, "standards", 0.56);
     this.charts = h("div", { class: "scroll pictures" });
     left.append(this.charts);
@@ -88,9 +124,20 @@ class StandardsTab implements TabHandle {
   private async openWith(params: Params): Promise<void> {
     this.params = params;
     if (params.path) this.dropped = null;
-    else if (params.dropped && this.dropped?.name !== params.dropped)
-      this.dropped = await keptFile(this.app.state.project?.folder ?? "", params.dropped);
+    else if (params.dropped && this.dropped?.name !== params.dropped) this.dropped = await this.kept(params.dropped);
+    this.typed = { mapping: null, stated: null };
+    if (this.dropped) {
+      const { name } = this.dropped;
+      const [mapping, stated] = await Promise.all(
+        [".map.toml", ".toml"].map((ending) => this.kept(besideOf(name, ending))),
+      );
+      this.typed = { mapping: mapping?.text ?? null, stated: stated?.text ?? null };
+    }
     if (params === this.params) void this.run();
+  }
+
+  private kept(name: string): Promise<TextFile | null> {
+    return keptFile(this.app.state.project?.folder ?? "", name);
   }
 
   hide(): void {
@@ -147,9 +194,13 @@ class StandardsTab implements TabHandle {
     } catch (error) {
       if (isAbort(error)) return;
       this.clear();
+      const codes = error instanceof Refusal ? error.diagnostics.map((d) => d.code) : [];
       showRefusal(
         this.result,
         error,
+        codes.some((code) => OF_COLUMNS.includes(code))
+          ? this.columnsButton("Say what the columns are …", "primary")
+          : null,
         h(
           "p",
           { class: "note" },
@@ -168,13 +219,94 @@ class StandardsTab implements TabHandle {
   }
 
   private body(path: string | null): Request<"evaluate"> {
-    const { standard } = this;
+    const { standard, typed } = this;
     const { radius, window, conditions, feature } = this.params;
     const from = this.dropped
-      ? { name: this.dropped.name, text: this.dropped.text, import: formOf(this.dropped.name) }
+      ? {
+          name: this.dropped.name,
+          text: this.dropped.text,
+          ...(typed.mapping === null ? {} : { mapping: typed.mapping }),
+          ...(typed.stated === null || conditions ? {} : { stated: typed.stated }),
+        }
       : { path };
     const more = Object.fromEntries(Object.entries({ radius, window, conditions, feature }).filter(([, v]) => v));
-    return { standard, ...from, ...more };
+    return { standard, ...from, ...more, ...this.judged() };
+  }
+
+  private judged(): Pick<Request<"evaluate">, "tolerances" | "is_simple"> {
+    const { tolerances, simple } = this.params;
+    return tolerances ? { tolerances: listed(tolerances), is_simple: simple === "1" } : {};
+  }
+
+  // ---- what is stated beside the readings ----
+
+  private columnsButton(text: string, style: string | null = null): HTMLElement | null {
+    const name = this.dropped?.name ?? this.params.path;
+    if (!name) return null;
+    return h(
+      "button",
+      {
+        class: style,
+        dataTest: "columns",
+        title: "Which column is what, its unit and its sign",
+        onclick: () => void this.stateColumns(name),
+      },
+      text,
+    );
+  }
+
+  private async stateColumns(name: string): Promise<void> {
+    const { dropped } = this;
+    const known = this.standards.find((one) => one.key === this.standard)?.columns ?? [];
+    const of = { name, path: dropped ? null : name, text: dropped?.text ?? null };
+    await this.columns.open({
+      title: ["Columns of ", h("code", {}, name)],
+      path: besideOf(name, ".map.toml"),
+      form: async (mapping) => {
+        const from = dropped ? { text: dropped.text } : { path: name };
+        const { table, is_mapping_text } = await this.app.api.ask("readings-columns", {
+          ...from,
+          ...(mapping === null ? {} : { mapping }),
+        });
+        if (is_mapping_text) return null;
+        if (!table) throw new Refusal("no-table", `${name} has no two columns`, "Is it a table of readings?");
+        return new ColumnsForm(this.app, of, known, table);
+      },
+      ...(dropped ? { kept: this.keptText(dropped.name, ".map.toml", "mapping") } : {}),
+      saved: () => void this.run(),
+    });
+  }
+
+  private async stateConditions(name: string): Promise<void> {
+    const { dropped, standard } = this;
+    const path = this.conditions ?? this.params.conditions ?? besideOf(name, ".toml");
+    await this.stating.open({
+      title: ["Conditions of ", h("code", {}, name)],
+      path,
+      form: (text) => (text === null ? conditionsForm(standard, name) : null),
+      ...(dropped && !this.params.conditions ? { kept: this.keptText(dropped.name, ".toml", "stated") } : {}),
+      saved: () => void this.run(),
+    });
+  }
+
+  /** Of a dropped file: this browser keeps what is stated, as it keeps the file. */
+  private keptText(name: string, ending: string, which: keyof Typed): NonNullable<Stated["kept"]> {
+    return {
+      text: this.typed[which],
+      where: "kept by this browser with the file that was dropped",
+      keep: async (text) => {
+        this.typed = { ...this.typed, [which]: text };
+        await keepFile(this.app.state.project?.folder ?? "", { name: besideOf(name, ending), text });
+      },
+    };
+  }
+
+  /** Puts a dropped file and what was stated of it into the project. */
+  private async keep(): Promise<void> {
+    const { dropped, typed, params } = this;
+    if (!dropped) return;
+    const path = await keepInProject(this.app, dropped, typed);
+    if (path) this.app.go("standards", { ...params, machine: null, dropped: null, path, standard: this.standard });
   }
 
   private clear(): void {
@@ -229,19 +361,23 @@ class StandardsTab implements TabHandle {
         class: "file-select",
         onchange: () => this.choose({ conditions: beside.value || null }),
       },
-      h("option", { value: "" }, this.dropped ? "none" : "of the same name beside the readings"),
+      h("option", { value: "" }, this.conditionsWord()),
       this.conditionFiles().map((p) => h("option", { value: p }, p)),
     );
     beside.value = conditions ?? "";
-    const field = (key: string, label: string, hint: string): HTMLElement => {
+    const name = this.dropped?.name ?? path;
+    const isTable = name !== null && !/\.(qif|md|rtl|rta)$/i.test(name);
+    const tolerance = `such as ${TOLERANCES[standard] ?? "A=10 um; R=5 um"}`;
+    const field = (key: string, label: string, hint: string, isLong = false): HTMLElement => {
       const box = h("input", {
         type: "text",
-        class: "short",
+        class: isLong ? null : "short",
+        dataField: key,
         value: this.params[key] ?? "",
         placeholder: hint,
         onchange: () => this.choose({ [key]: box.value.trim() || null }),
       });
-      return h("label", { class: "field" }, h("span", {}, label), box);
+      return h("label", { class: isLong ? "field grow" : "field" }, h("span", {}, label), box);
     };
     fill(
       this.head,
@@ -249,18 +385,68 @@ class StandardsTab implements TabHandle {
         "div",
         { class: "row" },
         h("label", { class: "field" }, h("span", {}, "Standard"), choice),
-        reportButton(this.app, { verb: "evaluate", file: now, standard }),
+        reportButton(this.app, {
+          verb: "evaluate",
+          file: now,
+          standard,
+          tolerances: this.params.tolerances,
+          simple: this.params.simple,
+        }),
+        this.dropped
+          ? h(
+              "button",
+              {
+                dataTest: "keep-readings",
+                title: "Readings, columns and conditions as files of the project: for a report, and for the next time",
+                onclick: () => void this.keep(),
+              },
+              "Save in the project …",
+            )
+          : null,
       ),
-      h("div", { class: "row" }, h("label", { class: "field grow" }, h("span", {}, "Readings"), files), this.open_file),
+      h(
+        "div",
+        { class: "row" },
+        h("label", { class: "field grow" }, h("span", {}, "Readings"), files),
+        this.open_file,
+        isTable ? this.columnsButton("Columns …") : null,
+      ),
       h(
         "div",
         { class: "row" },
         h("label", { class: "field grow" }, h("span", {}, "Conditions"), beside),
+        name
+          ? h(
+              "button",
+              { dataTest: "state-conditions", onclick: () => void this.stateConditions(name) },
+              "State them …",
+            )
+          : null,
         standard === "iso230-4" ? field("radius", "Nominal radius", "of the conditions, e.g. 150 mm") : null,
         standard === "iso230-3" ? field("window", "Window", "60 min") : null,
-        /\.qif$/i.test(this.dropped?.name ?? path ?? "") ? field("feature", "Feature", "name or id") : null,
+        /\.qif$/i.test(name ?? "") ? field("feature", "Feature", "name or id") : null,
+      ),
+      h(
+        "div",
+        { class: "row" },
+        field("tolerances", "Tolerances", tolerance, true),
+        this.params.tolerances ? this.simpleBox() : null,
       ),
     );
+  }
+
+  private simpleBox(): HTMLElement {
+    const box = h("input", {
+      type: "checkbox",
+      checked: this.params.simple === "1",
+      onchange: () => this.choose({ simple: box.checked ? "1" : null }),
+    });
+    return h("label", { title: "Without the uncertainty U: simple acceptance" }, box, " by the value alone");
+  }
+
+  private conditionsWord(): string {
+    if (!this.dropped) return "of the same name beside the readings";
+    return this.typed.stated === null ? "none" : "as stated here";
   }
 
   /** TOML files that may hold conditions: those in the folders of readings. */
@@ -307,13 +493,27 @@ class StandardsTab implements TabHandle {
         { class: "panel" },
         h("h1", {}, document.name ?? file),
         h("p", { class: "muted", dataTest: "circumstances" }, circumstances),
+        this.verdict(document),
         this.tiles(document),
         h("p", { class: "muted note", dataTest: "conditions" }, this.conditionsText(document, conditions_file, file)),
         diagnostics.length > 0 ? diagnosticList(diagnostics) : null,
       ),
-      sheetsOf(document).map(sheetTable),
+      sheetsOf(frame.header).map(sheetTable),
     );
     this.app.say(file);
+  }
+
+  /** Against the tolerances. */
+  private verdict(document: EvaluateDocument): HTMLElement | null {
+    const { decisions } = document;
+    if (!decisions) return null;
+    const standing = { conforming: "pass", "not conforming": "fail" }[decisions.decision] ?? "undecided";
+    return h(
+      "p",
+      { class: `verdict-band ${standing}`, dataTest: "decision" },
+      h("strong", {}, decisions.decision),
+      h("span", {}, `by ${decisions.rule === "simple" ? "the values alone" : decisions.rule}`),
+    );
   }
 
   private tiles(document: EvaluateDocument): HTMLElement {
@@ -353,15 +553,17 @@ class StandardsTab implements TabHandle {
             .centre_mm.map((v) => number(v, 4))
             .join(", ")}${NARROW_SPACE}mm.`
         : "";
-    if (conditions) return `Conditions: ${conditions}.${used}`;
+    const encoding = this.dropped?.encoding ? ` Read as ${this.dropped.encoding}.` : "";
+    if (conditions) return `Conditions: ${conditions}.${used}${encoding}`;
+    if (this.dropped && this.typed.stated !== null) return `Conditions as stated here.${used}${encoding}`;
     const lacking =
       kindOf(document) === "positioning"
         ? "nothing is known of instrument and temperature, so that no uncertainty U can be stated"
         : "nothing is known of instrument, date and temperature";
     const beside = this.dropped
-      ? "Choose a conditions file above if there is one."
+      ? "Choose a conditions file above if there is one, or state them."
       : `It would be ${file.replace(/\.[^./]*$/, "")}.toml, beside the readings.`;
-    return `No conditions file: ${lacking}. ${beside}${used}`;
+    return `No conditions file: ${lacking}. ${beside}${used}${encoding}`;
   }
 }
 

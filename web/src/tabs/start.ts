@@ -6,6 +6,8 @@ import { hashOf } from "../address.ts";
 import { fill, h } from "../dom.ts";
 import { keptFiles, MOST_BYTES, MOST_FILES, removeFile } from "../files.ts";
 import { bytes } from "../format.ts";
+import { readText, type TextFile } from "./measure/drop.ts";
+import { newMachine } from "./start/newmachine.ts";
 
 const VERBS: readonly [string, string, string][] = [
   ["describe", "Describe", "What the machine is, and where its tool really is"],
@@ -128,13 +130,13 @@ function files(app: App, project: Project): HTMLElement[] {
 /** Which tab reads a dropped file, by its ending. Tabs that take it find it in `droppedFile()`. */
 const ENDINGS: readonly [RegExp, string][] = [
   [/\.(nc|mpf|ngc|tap|gcode|h|spf|cnc|iso)$/i, "simulate"],
-  [/\.(csv|qif|md)$/i, "standards"],
+  [/\.(csv|txt|tsv|dat|rtl|rta|qif|md)$/i, "standards"],
 ];
 
-let dropped: { name: string; text: string } | null = null;
+let dropped: TextFile | null = null;
 
 /** The file that was dropped on the first page, once. */
-export function takeDropped(): { name: string; text: string } | null {
+export function takeDropped(): TextFile | null {
   const file = dropped;
   dropped = null;
   return file;
@@ -153,8 +155,13 @@ async function take(app: App, file: File | undefined): Promise<void> {
     );
     return;
   }
-  dropped = { name: file.name, text: await file.text() };
-  app.go(tab, { dropped: file.name });
+  try {
+    // Programs of old controls are not UTF-8: only remarks of them have other letters.
+    dropped = tab === "standards" ? await readText(app, file) : { name: file.name, text: await file.text() };
+    app.go(tab, { dropped: file.name });
+  } catch (error) {
+    app.fail(error);
+  }
 }
 
 /** The dropped files that this browser keeps, each with a button that removes it. */
@@ -248,6 +255,9 @@ export const start: Tab = {
         right,
         h("h2", {}, "Files of this folder"),
         h("p", { class: "muted path" }, project.folder),
+        app.has("describe")
+          ? h("button", { dataTest: "new-machine", onclick: () => newMachine(app) }, "A machine of my own …")
+          : null,
         dropZone(app),
         kept,
         files(app, project),

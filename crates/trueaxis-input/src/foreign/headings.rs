@@ -434,7 +434,7 @@ fn one_run(name: &str) -> Option<(String, Holds, bool)> {
 }
 
 /// A heading without its unit: `Position [mm]`, `error (µm)`, `deviation_um`, `Weg in mm`, `x, mm`.
-fn split_unit(text: &str) -> (&str, Option<&'static str>) {
+pub(super) fn split_unit(text: &str) -> (&str, Option<&'static str>) {
     let text = text.trim().trim_matches('"').trim();
     for (open, close) in [('[', ']'), ('(', ')'), ('（', '）'), ('<', '>')] {
         if let Some(inside) = text.strip_suffix(close)

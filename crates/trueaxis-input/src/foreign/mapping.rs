@@ -118,6 +118,25 @@ impl Mapping {
         }
     }
 
+    /// Whether it names columns of one table and no more: one block to a mark, no constants, equal steps, encoding.
+    pub fn is_plain(&self) -> bool {
+        let [block] = &self.blocks[..] else { return false };
+        let named = |column: &Mapped| !matches!(column.source, Source::Steps { .. });
+        let until = block.until.clone();
+        let whole = Block { skip_rows: block.skip_rows, until, ..Block::default() };
+        *block == whole && self.encoding.is_none() && self.columns.iter().all(named)
+    }
+
+    /// What the line after the last reading of its first block begins with.
+    pub fn until(&self) -> Option<&str> {
+        self.blocks.first()?.until.as_deref()
+    }
+
+    /// The sign before decimals that it states.
+    pub fn decimal(&self) -> Option<char> {
+        self.decimal
+    }
+
     /// The mapping file, as the user named it.
     pub fn file(&self) -> &str {
         &self.file
@@ -303,7 +322,7 @@ fn holds_of(role: &str) -> Holds {
         "run" | "group" => Holds::Count,
         _ if role.ends_with("_approach") => Holds::Count,
         "direction" => Holds::Direction,
-        "diagonal" => Holds::Word,
+        "diagonal" | "setup" | "axis" | "line" | "test" => Holds::Word,
         _ if small(role) => Holds::Small,
         _ => Holds::Large,
     }

@@ -207,7 +207,7 @@ pub fn read(file: &str, text: &str, problems: &mut Diagnostics) -> Option<String
 }
 
 /// The separator and the row of headings with the most that is understood.
-fn find_headings(all: &[(usize, &str)]) -> Option<(char, usize)> {
+pub(super) fn find_headings(all: &[(usize, &str)]) -> Option<(char, usize)> {
     let mut best: Option<(usize, char, usize)> = None;
     for (at, (_, line)) in all.iter().take(MOST_LINES_BEFORE).enumerate() {
         for (separator, _) in SEPARATORS {

@@ -4,12 +4,16 @@ use crate::body::{needed, short};
 use crate::desk::{Desk, Job};
 use crate::frame::Array;
 use crate::refusal::{Refusal, entries};
-use crate::request::{Diagnosed, Reply, Request, ask};
+use crate::request::{Diagnosed, Reply, Request, ask_with};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+use trueaxis::files::disk;
+use trueaxis::input::Files;
 use trueaxis::questions::{Answer, Evaluate, ReadingsFile};
 use trueaxis::report::{DiagnosticEntry, EvaluationDocument, Picture, Table};
 use trueaxis::verify::Standard;
+use trueaxis::verify::columns::Column;
 use trueaxis::verify::import::Import;
 
 /// The standards.
@@ -24,13 +28,41 @@ pub(super) struct StandardEntry {
     key: &'static str,
     /// Its title.
     title: &'static str,
+    /// The columns that its table may have.
+    columns: Vec<ColumnEntry>,
+}
+
+/// A column that a table of readings may have.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct ColumnEntry {
+    /// Its name in a mapping file.
+    name: &'static str,
+    /// What it holds.
+    title: &'static str,
+    /// Its usual units; none where it has no unit.
+    units: &'static [&'static str],
+    /// Whether several of them are numbered: `up_1`, `up_2`.
+    is_numbered: bool,
+    /// What its words mean; none where it has numbers or any words.
+    words: &'static [&'static str],
+}
+
+impl From<&Column> for ColumnEntry {
+    fn from(column: &Column) -> Self {
+        let Column { name, title, units, is_numbered, words } = *column;
+        Self { name, title, units, is_numbered, words }
+    }
 }
 
 impl Request for StandardsRequest {
     type Answer<'a> = [StandardEntry; Standard::ALL.len()];
 
     fn answer(self, _: &Desk, _: &Job) -> Result<Reply<Self>, Refusal> {
-        let standards = Standard::ALL.map(|s| StandardEntry { key: s.key(), title: s.title() });
+        let standards = Standard::ALL.map(|s| StandardEntry {
+            key: s.key(),
+            title: s.title(),
+            columns: s.columns().iter().map(ColumnEntry::from).collect(),
+        });
         Ok(Reply::json(&standards))
     }
 }
@@ -57,6 +89,14 @@ pub(super) struct EvaluateRequest {
     radius: Option<String>,
     /// The window of a drift test, a time with its unit.
     window: Option<String>,
+    /// The text of a mapping file that counts instead of the one beside the readings.
+    mapping: Option<String>,
+    /// The text of conditions that count instead of those of a file.
+    stated: Option<String>,
+    /// Tolerances, such as `A=10 um`.
+    tolerances: Option<Vec<String>>,
+    /// Whether a value alone decides, without its uncertainty.
+    is_simple: Option<bool>,
 }
 
 /// An evaluation. Arrays: `line` (f64: x, y and half the width of the band for each point of the bands), `points`
@@ -161,29 +201,64 @@ impl EvaluateRequest {
         Self { standard, path: Some(path), ..Self::default() }
     }
 
-    /// As the library is asked.
-    pub(super) fn question(self, desk: &Desk) -> Result<Evaluate, Refusal> {
+    /// The same against tolerances.
+    pub(super) fn judged(self, tolerances: Option<Vec<String>>, is_simple: Option<bool>) -> Self {
+        Self { tolerances, is_simple, ..self }
+    }
+
+    /// As the library is asked, and the files that it reads: those of the disk, and what was typed on the page.
+    pub(super) fn question(self, desk: &Desk) -> Result<(Evaluate, Files), Refusal> {
         let in_project = |name: String| desk.project.path(&name);
         let data = match self.path {
             Some(path) => ReadingsFile::Path(in_project(path)?),
             None => ReadingsFile::Text(needed(self.name, "name")?, needed(self.text, "text")?),
         };
-        Ok(Evaluate {
+        let place = match &data {
+            ReadingsFile::Path(path) => path.clone(),
+            ReadingsFile::Text(name, _) => PathBuf::from(name),
+        };
+        let typed = Typed { mapping: self.mapping, stated: self.stated };
+        let (map, stated) = typed.places(&place);
+        let conditions = self.conditions.map(in_project).transpose()?;
+        let question = Evaluate {
             standard: standard(&self.standard)?,
             data,
             import: self.import.as_deref().map(import).transpose()?,
-            map: None,
+            map,
             feature: self.feature,
-            conditions: self.conditions.map(in_project).transpose()?,
+            conditions: stated.or(conditions),
             radius: self.radius,
             window: self.window,
             write_back: None,
             machine: None,
             output: None,
-            tolerances: Vec::new(),
+            tolerances: self.tolerances.unwrap_or_default(),
             tolerance_file: None,
-            is_simple: false,
-        })
+            is_simple: self.is_simple.unwrap_or_default(),
+        };
+        Ok((question, typed.files(&place)))
+    }
+}
+
+/// What was typed on the page instead of files beside the readings.
+struct Typed {
+    mapping: Option<String>,
+    stated: Option<String>,
+}
+
+impl Typed {
+    /// The names under which mapping and conditions stand.
+    fn places(&self, readings: &Path) -> (Option<PathBuf>, Option<PathBuf>) {
+        let named =
+            |text: &Option<String>, ending| text.as_ref().map(|_| readings.with_extension(ending));
+        (named(&self.mapping, "map.toml"), named(&self.stated, "toml"))
+    }
+
+    /// The files of the disk, and these before them.
+    fn files(self, readings: &Path) -> Files {
+        let places = self.places(readings);
+        let both = [(places.0, self.mapping), (places.1, self.stated)];
+        disk().with_texts(both.into_iter().filter_map(|(place, text)| place.zip(text)))
     }
 }
 
@@ -205,7 +280,8 @@ impl Request for EvaluateRequest {
     type Answer<'a> = EvaluateAnswer<'a>;
 
     fn answer(self, desk: &Desk, job: &Job) -> Result<Reply<Self>, Refusal> {
-        let (evaluated, problems) = ask(&self.question(desk)?, job)?;
+        let (question, files) = self.question(desk)?;
+        let (evaluated, problems) = ask_with(&question, &files, job)?;
         let evaluation = evaluated.shown();
         let contents = evaluation.contents();
         let mut drawn = Drawn::default();

@@ -124,7 +124,7 @@ impl Request for SaveRequest {
             };
             return Err(Refusal::new(409, "conflict", message, hint));
         }
-        files::write(&path, text).map_err(|e| {
+        files::write_with_folder(&path, text).map_err(|e| {
             Refusal::new(422, "unwritable-file", format!("{name} cannot be written: {e}"), "")
         })?;
         let version = version(text);

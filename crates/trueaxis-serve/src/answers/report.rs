@@ -31,6 +31,10 @@ pub(super) struct ReportRequest {
     machine: Option<String>,
     /// The standard, for `evaluate`.
     standard: Option<String>,
+    /// Tolerances such as `A=10 um`, for `evaluate`.
+    tolerances: Option<Vec<String>>,
+    /// Whether a value alone decides, without its uncertainty, for `evaluate`.
+    is_simple: Option<bool>,
     /// The control of the programs, for `plan`.
     dialect: Option<String>,
     /// The file of its heading, to be filed and signed.
@@ -157,7 +161,10 @@ impl ReportRequest {
             }
             Verb::Evaluate => {
                 let standard = needed(self.standard, "standard")?;
-                made(&EvaluateRequest::of(standard, self.file).question(desk)?, job, heading)
+                let request = EvaluateRequest::of(standard, self.file);
+                let (question, _) =
+                    request.judged(self.tolerances, self.is_simple).question(desk)?;
+                made(&question, job, heading)
             }
             Verb::Verify => made(&VerifyReadings { file }, job, heading),
             Verb::Diff => {

@@ -59,7 +59,7 @@ export function isAbort(error: unknown): boolean {
 const MOST_TOLD = 12;
 
 /** What is wrong with the input and what to do, where the result would stand. */
-export function showRefusal(host: HTMLElement, error: unknown, more?: Node): void {
+export function showRefusal(host: HTMLElement, error: unknown, ...more: Child[]): void {
   const refusal = Refusal.from(error);
   const [errors, others] = [true, false].map((wanted) =>
     refusal.diagnostics.filter((d) => (d.severity === "error") === wanted),

@@ -8,33 +8,49 @@ import { bytes } from "../../format.ts";
 export interface TextFile {
   name: string;
   text: string;
+  /** Its encoding, where nothing in the file proves it. */
+  encoding?: string;
 }
 
 /** Readings are tables of a few thousand rows; what is larger than this is something else. */
 const MOST_BYTES = 32e6;
 
-async function read(file: File): Promise<TextFile> {
+/** The bytes in base64. */
+async function base64(file: File): Promise<string> {
+  const reader = new FileReader();
+  const done = new Promise((resolve, reject) => {
+    reader.onload = resolve;
+    reader.onerror = () => reject(reader.error);
+  });
+  reader.readAsDataURL(file);
+  await done;
+  return String(reader.result).replace(/^[^,]*,/, "");
+}
+
+/** The text of readings in any usual encoding; what is not UTF-8 is decoded by the server. */
+export async function readText(app: App, file: File): Promise<TextFile> {
+  const { name } = file;
   if (file.size > MOST_BYTES)
     throw new Refusal(
       "large-file",
-      `${file.name} has ${bytes(file.size)}: too much for readings`,
+      `${name} has ${bytes(file.size)}: too much for readings`,
       `Drop a CSV of at most ${bytes(MOST_BYTES)}, or put the file into the project folder.`,
     );
   try {
-    return { name: file.name, text: new TextDecoder("utf-8", { fatal: true }).decode(await file.arrayBuffer()) };
+    const text = new TextDecoder("utf-8", { fatal: true }).decode(await file.arrayBuffer());
+    // UTF-16 without a mark is UTF-8 with zeros.
+    if (!text.includes("\0")) return { name, text };
   } catch {
-    throw new Refusal(
-      "not-text",
-      `${file.name} is not a text file (UTF-8)`,
-      "Save the readings as CSV UTF-8: one line of headings, each with its unit, then one row for each reading.",
-    );
+    // why: another encoding, see below.
   }
+  const { text, encoding, is_assumed } = await app.api.ask("readings-text", { base64: await base64(file) });
+  return { name, text, ...(is_assumed ? { encoding } : {}) };
 }
 
 /** Makes `host` take a dropped file; returns the button that opens one. */
 export function dropOn(host: HTMLElement, app: App, label: string, take: (file: TextFile) => void): HTMLElement {
   const taken = (file: File | undefined): void => {
-    if (file) read(file).then(take, (error: unknown) => app.fail(error));
+    if (file) readText(app, file).then(take, (error: unknown) => app.fail(error));
   };
   const input = h("input", {
     type: "file",

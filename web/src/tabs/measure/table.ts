@@ -19,15 +19,18 @@ export interface Sheet {
   key?: string;
   /** Longer words on the first cell of each row. */
   hints?: (string | undefined)[];
+  /** Of cells that are text already: whether a column has words, and not numbers. */
+  words?: readonly boolean[];
 }
 
-function cell(value: Cell, digits: number, hint?: string): HTMLElement {
-  if (typeof value === "string") return h("td", { title: hint }, withErrorNames(value));
+function cell(value: Cell, digits: number, is_text: boolean, hint?: string): HTMLElement {
+  if (typeof value === "string")
+    return h("td", { class: is_text ? null : "number", title: hint }, withErrorNames(value));
   return h("td", { class: "number" }, number(value, digits));
 }
 
 function columnIsText(sheet: Sheet, j: number): boolean {
-  return sheet.rows.some((row) => typeof row[j] === "string");
+  return sheet.words?.[j] ?? sheet.rows.some((row) => typeof row[j] === "string");
 }
 
 export function sheetTable(sheet: Sheet): HTMLElement {
@@ -68,7 +71,9 @@ export function sheetTable(sheet: Sheet): HTMLElement {
             h(
               "tr",
               {},
-              row.map((value, j) => cell(value, sheet.digits?.[j] ?? 2, j === 0 ? sheet.hints?.[i] : undefined)),
+              row.map((value, j) =>
+                cell(value, sheet.digits?.[j] ?? 2, sheet.words?.[j] ?? true, j === 0 ? sheet.hints?.[i] : undefined),
+              ),
             ),
           ),
         ),

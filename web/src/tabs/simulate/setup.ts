@@ -1,9 +1,8 @@
 /** Work offset, tools, stock of a program: stated in a form, kept as `PROGRAM.setup.toml`, edited as text from then on. */
 
 import type { App } from "../../app.ts";
-import { Refusal } from "../../api.ts";
 import { fill, h } from "../../dom.ts";
-import { FileText } from "../describe/file.ts";
+import { FileDialog, type FileForm } from "../../filedialog.ts";
 import type { SimulatedAxis } from "./answers.ts";
 import { plain, setUpText, wrongNumber, type SetUpForm, type ToolForm } from "./setuptext.ts";
 
@@ -26,186 +25,113 @@ const OFFSETS = ["G54", "G55", "G56", "G57", "G58", "G59"];
 export const besideOf = (program: string): string => `${program.replace(/\.[^./\\]*$/, "")}.setup.toml`;
 
 export class SetUpDialog {
-  readonly element = h("dialog", { class: "set-up-dialog", ariaLabel: "Set-up" });
-  private readonly app: App;
+  private readonly dialog: FileDialog;
   private readonly saved: (path: string) => void;
-  private of: SetUpOf | null = null;
-  private version: string | null = null;
-  private path = "";
-  private typed = "";
-  private form: SetUpForm | null = null;
-  private readonly note = h("p", { class: "set-up-note", role: "status", dataTest: "set-up-note" });
-  private readonly save = h(
-    "button",
-    { class: "primary", type: "button", dataTest: "set-up-save", onclick: () => void this.keep() },
-    "Save and simulate",
-  );
-  private readonly text = new FileText((text) => {
-    this.typed = text;
-    this.form = null;
-  });
 
   constructor(app: App, saved: (path: string) => void) {
-    this.app = app;
+    this.dialog = new FileDialog(app, "set-up", "Set-up", "Save and simulate");
     this.saved = saved;
-    this.element.addEventListener("input", () => (this.note.textContent = ""));
+  }
+
+  get element(): HTMLElement {
+    return this.dialog.element;
   }
 
   /** Shows the file as it is, or a form for a new one. */
   async open(of: SetUpOf): Promise<void> {
-    this.of = of;
-    this.path = of.setup ?? besideOf(of.program);
-    this.form = null;
-    this.note.textContent = "";
-    const known = this.app.state.project?.files.some((file) => file.path === this.path);
-    try {
-      const file = known ? await this.app.api.ask("open", { path: this.path }) : null;
-      this.version = file?.version ?? null;
-      if (file) this.showText(file.text);
-      else this.showForm(of);
-      if (!this.element.open) this.element.showModal();
-    } catch (error) {
-      this.app.fail(error);
-    }
+    await this.dialog.open({
+      title: ["Set-up of ", h("code", {}, of.program.replace(/^.*[\\/]/, ""))],
+      path: of.setup ?? besideOf(of.program),
+      form: (text) => (text === null ? setUpForm(of) : null),
+      saved: this.saved,
+    });
   }
+}
 
-  private frame(...content: HTMLElement[]): void {
-    const close = h("button", { type: "button", onclick: () => this.element.close() }, "Cancel");
+function setUpForm(of: SetUpOf): FileForm {
+  const empty = (): Record<string, { value: string; unit: string }> =>
+    Object.fromEntries(of.axes.map(({ name, unit }) => [name, { value: "", unit }]));
+  const form: SetUpForm = {
+    program: of.program.replace(/^.*[\\/]/, ""),
+    control: of.control ?? "",
+    offset: "G54",
+    positions: empty(),
+    start: empty(),
+    tools: (of.tools.length > 0 ? of.tools : [1]).map((number) => newTool(String(number))),
+    stock: { edges: ["", "", ""], centre: ["", "", ""] },
+    fixtures: [{ file: "", placement: "" }],
+  };
+  const element = h("div", {});
+  const draw = (): void =>
     fill(
-      this.element,
-      h("h2", {}, "Set-up of ", h("code", {}, this.of?.program.replace(/^.*[\\/]/, "") ?? "")),
-      ...content,
-      this.note,
-      h("p", { class: "row" }, this.save, close, h("span", { class: "muted" }, `saved as ${this.path}`)),
-    );
-  }
-
-  private showText(text: string): void {
-    this.typed = text;
-    this.text.show(text);
-    this.frame(this.text.element);
-  }
-
-  private showForm(of: SetUpOf): void {
-    const empty = (): Record<string, { value: string; unit: string }> =>
-      Object.fromEntries(of.axes.map(({ name, unit }) => [name, { value: "", unit }]));
-    const form: SetUpForm = {
-      program: of.program.replace(/^.*[\\/]/, ""),
-      control: of.control ?? "",
-      offset: "G54",
-      positions: empty(),
-      start: empty(),
-      tools: (of.tools.length > 0 ? of.tools : [1]).map((number) => newTool(String(number))),
-      stock: { edges: ["", "", ""], centre: ["", "", ""] },
-      fixtures: [{ file: "", placement: "" }],
-    };
-    this.form = form;
-    const body = h("div", { class: "set-up-form" });
-    const draw = (): void =>
-      fill(
-        body,
+      element,
+      h("p", { class: "muted" }, "What is not known may stay empty: it counts as 0. Lengths in mm, angles in degrees."),
+      h("div", { class: "file-dialog-fields" }, choice("Control", CONTROLS, form, "control", "automatic")),
+      h(
+        "fieldset",
+        {},
+        h("legend", {}, "Program zero: machine coordinates of the spindle gauge line there, rotary axes at 0"),
+        choice("Work offset", OFFSETS, form, "offset", ""),
+        axisFields(form.positions, "at program zero"),
+      ),
+      h(
+        "fieldset",
+        {},
+        h("legend", {}, "Tools"),
+        toolTable(form.tools),
         h(
-          "p",
-          { class: "muted" },
-          "What is not known may stay empty: it counts as 0. Lengths in mm, angles in degrees.",
-        ),
-        h("div", { class: "set-up-fields" }, this.choice("Control", CONTROLS, form, "control", "automatic")),
-        h(
-          "fieldset",
-          {},
-          h("legend", {}, "Program zero: machine coordinates of the spindle gauge line there, rotary axes at 0"),
-          this.choice("Work offset", OFFSETS, form, "offset", ""),
-          axisFields(form.positions, "at program zero"),
-        ),
-        h(
-          "fieldset",
-          {},
-          h("legend", {}, "Tools"),
-          toolTable(form.tools),
-          h(
-            "button",
-            {
-              type: "button",
-              onclick: () => {
-                form.tools.push(newTool(String(form.tools.length + 1)));
-                draw();
-              },
+          "button",
+          {
+            type: "button",
+            onclick: () => {
+              form.tools.push(newTool(String(form.tools.length + 1)));
+              draw();
             },
-            "Add a tool",
-          ),
+          },
+          "Add a tool",
+        ),
+      ),
+      h(
+        "details",
+        {},
+        h("summary", {}, "Stock, fixture, start"),
+        h(
+          "fieldset",
+          {},
+          h("legend", {}, "Stock: a box in the workpiece frame"),
+          triple(form.stock.edges, ["length X", "width Y", "height Z"], 0),
+          triple(form.stock.centre, ["centre X", "centre Y", "centre Z"]),
         ),
         h(
-          "details",
+          "fieldset",
           {},
-          h("summary", {}, "Stock, fixture, start"),
-          h(
-            "fieldset",
-            {},
-            h("legend", {}, "Stock: a box in the workpiece frame"),
-            triple(form.stock.edges, ["length X", "width Y", "height Z"], 0),
-            triple(form.stock.centre, ["centre X", "centre Y", "centre Z"]),
-          ),
-          h(
-            "fieldset",
-            {},
-            h("legend", {}, "Fixture"),
-            form.fixtures.map((fixture) => [
-              field("STL file beside the program", fixture.file, (v) => (fixture.file = v), "vice.stl"),
-              field("placed at x y z, mm", fixture.placement, (v) => (fixture.placement = v), "0 0 -40"),
-            ]),
-          ),
-          h(
-            "fieldset",
-            {},
-            h("legend", {}, "Where the axes stand before the program"),
-            axisFields(form.start, "start"),
-          ),
+          h("legend", {}, "Fixture"),
+          form.fixtures.map((fixture) => [
+            field("STL file beside the program", fixture.file, (v) => (fixture.file = v), "vice.stl"),
+            field("placed at x y z, mm", fixture.placement, (v) => (fixture.placement = v), "0 0 -40"),
+          ]),
         ),
-      );
-    draw();
-    this.frame(body);
-  }
-
-  private choice(
-    title: string,
-    options: readonly string[],
-    form: SetUpForm,
-    key: "control" | "offset",
-    none: string,
-  ): HTMLElement {
-    const select = h(
-      "select",
-      { onchange: () => (form[key] = select.value) },
-      options.map((value) => h("option", { value }, value || none)),
+        h("fieldset", {}, h("legend", {}, "Where the axes stand before the program"), axisFields(form.start, "start")),
+      ),
     );
-    select.value = form[key];
-    return h("label", {}, h("span", { class: "muted" }, title), select);
-  }
+  draw();
+  return { element, text: () => setUpText(form) };
+}
 
-  private async keep(): Promise<void> {
-    this.text.flush();
-    const wrong = this.form ? firstWrong(this.element) : null;
-    if (wrong) {
-      this.note.textContent = wrong.dataset.wrong ?? "";
-      wrong.focus();
-      return;
-    }
-    const text = this.form ? setUpText(this.form) : this.typed;
-    this.save.disabled = true;
-    try {
-      const body = { path: this.path, text, version: this.version, window: this.app.api.window };
-      const { version } = await this.app.api.ask("save", body);
-      this.version = version;
-      this.element.close();
-      await this.app.loadProject();
-      this.saved(this.path);
-    } catch (error) {
-      const refusal = Refusal.from(error);
-      this.note.textContent = [refusal.message, refusal.hint].filter(Boolean).join(": ");
-    } finally {
-      this.save.disabled = false;
-    }
-  }
+function choice(
+  title: string,
+  options: readonly string[],
+  form: SetUpForm,
+  key: "control" | "offset",
+  none: string,
+): HTMLElement {
+  const select = h(
+    "select",
+    { onchange: () => (form[key] = select.value) },
+    options.map((value) => h("option", { value }, value || none)),
+  );
+  select.value = form[key];
+  return h("label", {}, h("span", { class: "muted" }, title), select);
 }
 
 const newTool = (number: string): ToolForm => ({
@@ -216,8 +142,6 @@ const newTool = (number: string): ToolForm => ({
   holder_diameter: "",
   holder_length: "",
 });
-
-const firstWrong = (host: HTMLElement): HTMLElement | null => host.querySelector<HTMLElement>("[data-wrong]");
 
 /** A field that says what is wrong with its number. */
 function numberInput(title: string, value: string, take: (value: string) => void, at_least?: number): HTMLInputElement {
@@ -247,7 +171,7 @@ function field(title: string, value: string, take: (value: string) => void, exam
 function axisFields(values: SetUpForm["positions"], of: string): HTMLElement {
   return h(
     "div",
-    { class: "set-up-fields" },
+    { class: "file-dialog-fields" },
     Object.entries(values).map(([axis, entry]) =>
       h(
         "label",
@@ -262,7 +186,7 @@ function axisFields(values: SetUpForm["positions"], of: string): HTMLElement {
 function triple(values: [string, string, string], titles: readonly string[], at_least?: number): HTMLElement {
   return h(
     "div",
-    { class: "set-up-fields" },
+    { class: "file-dialog-fields" },
     titles.map((title, i) =>
       h(
         "label",

@@ -66,7 +66,7 @@ export interface Rotation {
 
 export type EvaluateDocument = ServeEvaluate["document"];
 
-export type Kind = "positioning" | "circular" | "drift" | "diagonals" | "rotation";
+export type Kind = "positioning" | "circular" | "drift" | "diagonals" | "rotation" | "other";
 
 /** Which kind of test the document is of, by what it holds. */
 export function kindOf(document: EvaluateDocument): Kind {
@@ -74,7 +74,7 @@ export function kindOf(document: EvaluateDocument): Kind {
   if ("diagonals" in document) return "diagonals";
   if ("motions" in document) return "rotation";
   if ("channels" in document) return "drift";
-  return "circular";
+  return "paths" in document ? "circular" : "other";
 }
 
 export const as = <T>(document: EvaluateDocument): T => document as unknown as T;

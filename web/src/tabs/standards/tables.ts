@@ -1,5 +1,6 @@
 /** Result tables of every standard: symbols, what they mean, values, uncertainties. */
 
+import type { ServeEvaluate } from "../../../types.d.ts";
 import type { Cell, Sheet } from "../measure/table.ts";
 import {
   as,
@@ -11,6 +12,8 @@ import {
   type Positioning,
   type Rotation,
 } from "./documents.ts";
+
+type ReportTable = ServeEvaluate["figures"][number];
 
 const value = (of: Record<string, unknown>, key: string): number | null =>
   typeof of[key] === "number" ? (of[key] as number) : null;
@@ -275,8 +278,21 @@ function rotation(document: EvaluateDocument): Sheet[] {
   ];
 }
 
-export function sheetsOf(document: EvaluateDocument): Sheet[] {
-  return { positioning, circular, drift, diagonals, rotation }[kindOf(document)](document);
+/** A table of the report, as it stands there. */
+function sheetOf(table: ReportTable, key: string): Sheet {
+  const { title, note, headings, rows, words } = table;
+  return { key, title, head: [...headings], rows: rows.map((row) => [...row]), words, ...(note ? { note } : {}) };
+}
+
+/** Tolerances first; of geometric tests and probes the tables of the report. */
+export function sheetsOf(header: ServeEvaluate): Sheet[] {
+  const { document, figures, details } = header;
+  const [first] = figures;
+  const judged = document.decisions && first ? [sheetOf(first, "tolerances")] : [];
+  const kind = kindOf(document);
+  if (kind !== "other") return [...judged, ...{ positioning, circular, drift, diagonals, rotation }[kind](document)];
+  const results = figures.slice(judged.length).map((table, i) => sheetOf(table, i === 0 ? "figures" : `figures-${i}`));
+  return [...judged, ...results, ...details.map((table, i) => sheetOf(table, `details-${i}`))];
 }
 
 const WORDS: Record<string, string> = {
@@ -351,7 +367,7 @@ export function tilesOf(document: EvaluateDocument): Tile[] {
         unit: "µm",
       }));
     case "drift":
-      return (sheetsOf(document)[0]?.rows ?? [])
+      return (drift(document)[0]?.rows ?? [])
         .filter((row) => row[1] !== "°C")
         .map((row) => ({
           symbol: String(row[0]),
@@ -360,5 +376,7 @@ export function tilesOf(document: EvaluateDocument): Tile[] {
           value: row[2] as number | null,
           unit: String(row[1]),
         }));
+    case "other":
+      return [];
   }
 }
