@@ -8,7 +8,7 @@
 mod asking;
 
 use libfuzzer_sys::fuzz_target;
-use trueaxis::input::foreign::{Mapping, decode};
+use trueaxis::input::foreign::{LookAs, Mapping, decode, look};
 use trueaxis::questions::Evaluate;
 
 const FILES: [&str; 2] = ["readings.map.toml", "readings.csv"];
@@ -16,9 +16,11 @@ const FILES: [&str; 2] = ["readings.map.toml", "readings.csv"];
 fuzz_target!(|data: &[u8]| {
     let (first, rest) = data.split_first().unwrap_or((&0, &[]));
     // Tables of other programs are not always UTF-8.
-    let _ = decode(rest);
+    let text = decode(rest).text;
+    let _ = look(&text, &LookAs::default());
     if let (Some(mapping), _) = Mapping::parse(FILES[0], &String::from_utf8_lossy(rest)) {
         let _ = mapping.decode(rest);
+        let _ = look(&text, &LookAs { mapping: Some(&mapping), ..LookAs::default() });
     }
     let question = Evaluate {
         map: Some(FILES[0].into()),

@@ -364,3 +364,64 @@ test("two windows never overwrite each other in silence", () =>
       await context.close();
     }
   }));
+
+test("bodies in the picture: picked, hidden, cut, measured", async () => {
+  const { page, context, complaints } = await opened(
+    server.address,
+    "describe?machine=machines/lei-hsu-mill/machine.toml",
+  );
+  await page.waitForFunction(
+    () => (window.trueaxisScene?.boxOf("w")?.length ?? 0) === 6 && window.trueaxisScene.frames() > 0,
+  );
+  const box = await page.evaluate(() => window.trueaxisScene.boxOf("w"));
+  const [x0, y0, , x1, , z1] = box;
+  /** A place of the page where a point of the workpiece is seen, a little towards the middle of its face. */
+  const seenAt = (x) =>
+    page.evaluate(
+      ([at, middle]) => {
+        const [px, py] = window.trueaxisScene.pixelOf("w", at);
+        const [mx, my] = window.trueaxisScene.pixelOf("w", middle);
+        const length = Math.hypot(mx - px, my - py);
+        return [px + (4 * (mx - px)) / length, py + (4 * (my - py)) / length];
+      },
+      [
+        [x, y0, z1],
+        [(x0 + x1) / 2, (y0 + box[4]) / 2, z1],
+      ],
+    );
+  await page.click("#tab-describe .scene-panel summary");
+  // The length of an edge of the workpiece, corner to corner; the tool stands before one of them.
+  await page.selectOption('#tab-describe [data-body="t"]', "hidden");
+  await page.click('#tab-describe [data-test="measure-distance"]');
+  for (const x of [x0, x1]) await page.mouse.click(...(await seenAt(x)));
+  const distance = await page.textContent('#tab-describe [data-test="distance"]');
+  await picture(page, "describe-distance");
+  near(distance.split("mm")[0], x1 - x0, 3, "edge of the workpiece");
+  await page.click('#tab-describe [data-test="measure-distance"]');
+  // A turn of the picture is no press.
+  const [px, py] = await page.evaluate((at) => window.trueaxisScene.pixelOf("w", at), [0, y0, z1 - 60]);
+  const before = await page.evaluate(() => location.hash);
+  assert.ok(!/page=errors/.test(before), before);
+  await page.mouse.click(px, py);
+  await page.waitForFunction(() => document.querySelector('#tab-describe [aria-label="Errors of"]').value === "w");
+  assert.ok(await page.isVisible("#tab-describe .errors-panel"));
+  // Hidden, it is not met: what stands behind it is.
+  await page.selectOption('#tab-describe [data-body="w"]', "hidden");
+  await page.mouse.click(px, py);
+  await page.waitForFunction(() => document.querySelector('#tab-describe [aria-label="Errors of"]').value === "C");
+  await page.selectOption('#tab-describe [data-body="w"]', "glass");
+  await page.mouse.click(px, py);
+  await page.waitForFunction(() => document.querySelector('#tab-describe [aria-label="Errors of"]').value === "w");
+  // Cut away, it is not met either.
+  await page.selectOption('#tab-describe [data-test="section"]', "Y");
+  await page.fill('#tab-describe [aria-label="Place of the section"]', "999");
+  await page.selectOption('#tab-describe [aria-label="Errors of"]', "");
+  await page.mouse.click(px, py);
+  assert.equal(await page.inputValue('#tab-describe [aria-label="Errors of"]'), "");
+  await page.selectOption('#tab-describe [data-test="section"]', "");
+  await page.selectOption('#tab-describe [data-test="section"]', "X");
+  await page.fill('#tab-describe [aria-label="Place of the section"]', "500");
+  await picture(page, "describe-section");
+  assert.deepEqual(complaints, []);
+  await context.close();
+});

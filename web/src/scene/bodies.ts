@@ -1,9 +1,19 @@
 /** The bodies of the machine in the scene graph: each nominal and solid, and actual as a ghost. */
 
-import { Box3, EdgesGeometry, Group, LineSegments, Matrix4, Mesh, type Vector3 } from "three";
+import {
+  Box3,
+  EdgesGeometry,
+  Group,
+  LineSegments,
+  Matrix4,
+  Mesh,
+  type MeshLambertMaterial,
+  type Object3D,
+  type Vector3,
+} from "three";
 import type { Link } from "../api.ts";
 import { cssColour } from "../theme.ts";
-import { disposeMaterials, makeMaterials, type Role } from "./materials.ts";
+import { disposeMaterials, makeMaterials, seenThrough, type Role } from "./materials.ts";
 import { homePoses } from "./schematic.ts";
 import { cornersOf, matrixOf, type Part } from "./shapes.ts";
 
@@ -16,6 +26,9 @@ export interface DrawnPart {
   readonly ghost: Mesh;
   readonly ghost_edges: LineSegments;
 }
+
+/** How a body is drawn. */
+export type Look = "solid" | "glass" | "hidden";
 
 interface Body {
   name: string;
@@ -33,6 +46,10 @@ export class Bodies {
   private moving: Body[] = [];
   private parts: DrawnPart[] = [];
   private materials = makeMaterials();
+  private glass = new Map<Role, MeshLambertMaterial>();
+  /** Of bodies that are not solid, by name. */
+  private readonly looks = new Map<string, Look>();
+  private lit: string | null = null;
 
   /** New bodies without parts, all axes at 0. */
   build(links: readonly Link[]): void {
@@ -54,6 +71,8 @@ export class Bodies {
     this.ghost_root.clear();
     this.bed = newBody("b");
     this.moving = [];
+    this.looks.clear();
+    this.lit = null;
   }
 
   // ---- parts ----
@@ -81,6 +100,7 @@ export class Bodies {
     body.node.add(solid, edges);
     body.ghost.add(ghost, ghost_edges);
     this.parts.push(part);
+    this.dress(part);
     return part;
   }
 
@@ -172,27 +192,64 @@ export class Bodies {
 
   /** New colours after a change of theme. */
   repaint(): void {
-    this.highlight(null);
+    this.lit = null;
     disposeMaterials(this.materials);
+    for (const material of this.glass.values()) material.dispose();
+    this.glass.clear();
     this.materials = makeMaterials();
-    for (const { role, solid, edges, ghost, ghost_edges } of this.parts) {
-      solid.material = this.materials[role];
-      edges.material = this.materials.edge;
-      ghost.material = this.materials.ghost;
-      ghost_edges.material = this.materials.ghost_edge;
+    for (const part of this.parts) {
+      part.edges.material = this.materials.edge;
+      part.ghost.material = this.materials.ghost;
+      part.ghost_edges.material = this.materials.ghost_edge;
+      this.dress(part);
     }
   }
 
   /** Marks one body (an axis row under the mouse); null marks none. */
   highlight(name: string | null): void {
-    for (const { body, role, solid } of this.parts) {
-      const base = this.materials[role];
-      if (solid.material !== base && !Array.isArray(solid.material)) solid.material.dispose();
-      solid.material = base;
-      if (body.name !== name) continue;
-      const lit = base.clone();
-      lit.color.lerp(lit.color.clone().set(cssColour("--scene-arrow")), 0.55);
-      solid.material = lit;
-    }
+    const before = this.lit;
+    this.lit = name;
+    for (const part of this.parts) if (part.body.name === before || part.body.name === name) this.dress(part);
+  }
+
+  /** Names of the bodies that have parts, in the order of the chain; the bed is `b`. */
+  get names(): string[] {
+    const has = new Set(this.parts.map((part) => part.body.name));
+    return ["b", ...this.links.map((link) => link.name)].filter((name) => has.has(name));
+  }
+
+  lookOf(name: string): Look {
+    return this.looks.get(name) ?? "solid";
+  }
+
+  setLook(name: string, look: Look): void {
+    this.looks.set(name, look);
+    for (const part of this.parts) if (part.body.name === name) this.dress(part);
+  }
+
+  /** The body that a solid is of. */
+  ownerOf(solid: Object3D): string | null {
+    return this.parts.find((part) => part.solid === solid)?.body.name ?? null;
+  }
+
+  /** Material and visibility of a part by how its body is drawn. */
+  private dress({ body, role, solid, edges, ghost, ghost_edges }: DrawnPart): void {
+    const look = this.lookOf(body.name);
+    const base = look === "glass" ? this.glassOf(role) : this.materials[role];
+    const shared = new Set<unknown>([...Object.values(this.materials), ...this.glass.values()]);
+    if (!shared.has(solid.material) && !Array.isArray(solid.material)) solid.material.dispose();
+    solid.material = base;
+    // A layer that no camera and no ray looks at: `visible` says whether a part is wanted at all.
+    for (const node of [solid, edges, ghost, ghost_edges]) node.layers.set(look === "hidden" ? 31 : 0);
+    if (body.name !== this.lit) return;
+    const lit = base.clone();
+    lit.color.lerp(lit.color.clone().set(cssColour("--scene-arrow")), 0.55);
+    solid.material = lit;
+  }
+
+  private glassOf(role: Role): MeshLambertMaterial {
+    const known = this.glass.get(role) ?? seenThrough(this.materials[role]);
+    this.glass.set(role, known);
+    return known;
   }
 }

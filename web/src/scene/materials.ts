@@ -60,3 +60,10 @@ export function makeMaterials(): Materials {
 export function disposeMaterials(materials: Materials): void {
   for (const material of Object.values<Material>(materials)) material.dispose();
 }
+
+/** The same, seen through. */
+export function seenThrough(material: MeshLambertMaterial): MeshLambertMaterial {
+  const glass = material.clone();
+  Object.assign(glass, { transparent: true, opacity: 0.22, depthWrite: false });
+  return glass;
+}

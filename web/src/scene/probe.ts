@@ -1,6 +1,6 @@
 /** What tests read of the picture: the scene graph, not the numbers that went in. */
 
-import { Vector3 } from "three";
+import { type Camera, Vector3 } from "three";
 import type { ToolShape } from "../api.ts";
 import type { Bodies } from "./bodies.ts";
 
@@ -13,6 +13,8 @@ export interface SceneProbe {
   boxOf(name: string): number[] | null;
   /** Names of the parts that are seen on a body. */
   partsOf(name: string): string[];
+  /** Where a point of a body, in its frame, is seen on the page. */
+  pixelOf(name: string, point: [number, number, number]): [number, number] | null;
   frames(): number;
   /** What the Simulate tab shows now: the time, the axis positions, mm and deg, and from where they came, in full. */
   moment?: () => { time_s: number; axes: Record<string, number>; approach: Record<string, number> } | null;
@@ -24,8 +26,20 @@ declare global {
   }
 }
 
-export function probeOf(bodies: Bodies, tool: () => ToolShape | null, frames: () => number): SceneProbe {
+export function probeOf(
+  bodies: Bodies,
+  tool: () => ToolShape | null,
+  frames: () => number,
+  seen: () => { box: DOMRect; camera: Camera },
+): SceneProbe {
   return {
+    pixelOf: (name, point) => {
+      const body = bodies.named(name);
+      if (!body) return null;
+      const { box, camera } = seen();
+      const p = new Vector3(...point).applyMatrix4(body.node.matrixWorld).project(camera);
+      return [box.left + (box.width * (p.x + 1)) / 2, box.top + (box.height * (1 - p.y)) / 2];
+    },
     poseOf: (name, which = "nominal") => poseOf(bodies, name, which),
     nominalTip: () => nominalTip(bodies, tool()),
     boxOf: (name) => {

@@ -3,11 +3,14 @@
 import {
   AxesHelper,
   Box3,
+  type Camera,
   type Group,
   type InstancedMesh,
+  type Line,
   type Mesh,
   type MeshBasicMaterial,
   type Object3D,
+  type Plane,
   Raycaster,
   Scene,
   Vector2,
@@ -30,6 +33,7 @@ import { savePng } from "./picture.ts";
 import { probeOf } from "./probe.ts";
 import { schematic, unitOf } from "./schematic.ts";
 import { cornersOf, geometryOf, matrixOf } from "./shapes.ts";
+import { SceneTools } from "./tools.ts";
 import { toolParts, workpieceBlock } from "./tool.ts";
 import { type BarWords, WorkpieceLayers } from "./workpiece.ts";
 
@@ -49,6 +53,7 @@ export class MachineView {
   /** A view that was asked for before there was room for a picture. */
   private wanted_view: string | null = null;
   private readonly bodies = new Bodies();
+  readonly tools = new SceneTools(this, this.bodies, this.overlay);
   private readonly layers = new WorkpieceLayers(this.overlay.legend);
   private machine: MachineDescription | null = null;
   private tool: DrawnPart[] = [];
@@ -70,7 +75,7 @@ export class MachineView {
     host.append(this.element);
     this.renderer = this.makeRenderer();
     this.camera.buttons.append(h("button", { title: "Save the picture as PNG", onclick: () => this.savePng() }, "PNG"));
-    this.element.append(this.overlay.element, this.camera.buttons);
+    this.element.append(this.overlay.element, this.camera.buttons, this.tools.element);
     this.scene.add(this.bodies.root, this.bodies.ghost_root, lights());
     new ResizeObserver(() => this.resize()).observe(this.element);
     onTheme(() => this.repaint());
@@ -78,6 +83,7 @@ export class MachineView {
       this.bodies,
       () => this.machine?.tool ?? null,
       () => this.drawn,
+      () => this.seen(),
     );
   }
 
@@ -88,6 +94,7 @@ export class MachineView {
       this.pace = new Pace(renderer, slow, () => this.schedule());
       this.element.append(renderer.domElement);
       this.camera.attach(renderer.domElement);
+      this.tools.attach(renderer.domElement);
       return renderer;
     } catch {
       this.element.append(
@@ -117,6 +124,7 @@ export class MachineView {
     this.layGrid();
     this.showBlock();
     this.showGhost();
+    this.tools.clear();
     if (!keep_view) {
       this.wanted_view = null;
       this.camera.setView("iso");
@@ -325,6 +333,30 @@ export class MachineView {
   /** The colour bar of something of the caller's own. */
   showScale(bar: ColourBarSpec): void {
     this.layers.showBar(bar);
+  }
+
+  /** For a press at a place of the page: where the picture is, and from where it is seen. */
+  seen(): { box: DOMRect; camera: Camera } {
+    this.scene.updateMatrixWorld(true);
+    this.camera.camera.updateMatrixWorld();
+    return { box: this.element.getBoundingClientRect(), camera: this.camera.camera };
+  }
+
+  /** Box around all that is shown, in the machine frame, mm. */
+  extent(): Box3 {
+    return this.bounds();
+  }
+
+  /** Cuts away what lies below a plane; null cuts nothing. */
+  cut(plane: Plane | null): void {
+    if (this.renderer) this.renderer.clippingPlanes = plane ? [plane] : [];
+    this.requestRender();
+  }
+
+  /** One line in the machine frame, or none. */
+  showLine(line: Line | null): void {
+    if (line) this.scene.add(line);
+    this.requestRender();
   }
 
   /** Which instance of a mesh is seen at a place of the page; null: none. */

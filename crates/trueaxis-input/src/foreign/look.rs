@@ -295,6 +295,28 @@ mod tests {
         assert_eq!(look("alone\nlines\n", &LookAs::default()), None);
     }
 
+    /// Texts of separators, signs, digits, quotes and ends of lines in any order: a table or none, never a panic.
+    #[test]
+    fn any_text_is_a_table_or_none() {
+        const PARTS: [&str; 14] =
+            [";", ",", "\t", " ", "|", "\n", "\r\n", "\"", "1", "-2,5", "Soll", "[mm]", "µ", "#"];
+        let mut state = 7_u64;
+        let mut next = |below: usize| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 33) as usize % below
+        };
+        for _ in 0..20_000 {
+            let text: String = (0..next(60)).map(|_| PARTS[next(PARTS.len())]).collect();
+            let line = next(5);
+            let separator = (next(2) == 0).then_some(';');
+            let known =
+                LookAs { separator, heading_line: (line < 4).then_some(line), mapping: None };
+            if let Some(found) = look(&text, &known) {
+                assert!(found.columns.len() >= 2, "{text:?}");
+            }
+        }
+    }
+
     #[test]
     fn a_mapping_file_says_what_columns_are() {
         let text = "head\nA;B;C\n1;V;3\n2;R;4\n";

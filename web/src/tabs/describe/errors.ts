@@ -111,6 +111,15 @@ export class ErrorTable {
     else this.filter();
   }
 
+  /** The errors of one body; false if it has none. */
+  showBody(body: string): boolean {
+    if (![...this.of_body.options].some((option) => option.value === body)) return false;
+    this.search.value = "";
+    this.of_body.value = body;
+    this.filterAnew();
+    return true;
+  }
+
   private filterAnew(): void {
     this.filter();
     this.changed();

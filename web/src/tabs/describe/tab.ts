@@ -92,6 +92,7 @@ export class DescribeTab implements TabHandle {
     const { left, right } = split(host, "describe", 0.55);
     this.view = new MachineView(left);
     this.exaggeration = new Exaggeration(this.view, () => this.keepState());
+    this.view.tools.onPick = (body) => this.pick(body);
     this.view.onView = (view) => this.app.keep("describe", { view: view === "iso" ? null : view });
     left.append(h("div", { class: "scene-bottom" }, this.exaggeration.element));
     fill(right, h("div", { class: "describe-panel" }, this.head.element, this.pages.element));
@@ -125,6 +126,17 @@ export class DescribeTab implements TabHandle {
       if (params.view) this.view.setView(params.view);
       if (params.at && this.described) this.moveTo(this.described, params.at);
     }
+  }
+
+  /** A body that was pressed in the picture: its errors. */
+  private pick(body: string): void {
+    this.view.highlight(body);
+    if (!this.errors.showBody(body)) {
+      this.app.say(`${body === "b" ? "The bed" : body} has no errors: it is what the others are measured against.`);
+      return;
+    }
+    this.pages.go("errors");
+    this.keepState();
   }
 
   /** What is shown, in the address. */
