@@ -38,10 +38,9 @@ pub use guard::{Confidence, Convention, MARK, Wrong, is_compensated};
 pub use number::Increments;
 pub use verify::{BlockResidual, Largest, Proof, Residual};
 
-use ahead::{Gather, Stretch};
+use ahead::{Gather, Stretches};
 use line_table::LineTable;
 use std::ops::Range;
-use std::sync::mpsc::Receiver;
 use trueaxis_input::{Diagnostic, Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_motion::Densify;
@@ -458,17 +457,19 @@ fn once(
 
 /// Executes a program, and writes it in a thread of its own.
 fn both<'w>(
-    (mut ahead, stretches): (Gather<'_>, Receiver<Stretch>),
+    (mut ahead, stretches): (Gather<'_>, Stretches),
     mut walk: Walk<'w>,
     execute: impl FnOnce(&mut dyn Follower) -> Outcome,
 ) -> (Outcome, Walk<'w>) {
     std::thread::scope(|scope| {
         let writer = scope.spawn(move || {
-            for stretch in stretches {
-                walk.take(stretch);
+            for mut stretch in stretches.next {
+                walk.take(&mut stretch);
                 if walk.fault.is_some() {
                     break;
                 }
+                // Of no use to one that has enough of them.
+                let _ = stretches.written.try_send(stretch);
             }
             walk
         });

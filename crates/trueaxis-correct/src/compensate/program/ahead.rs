@@ -2,6 +2,7 @@
 //!
 //! ```text
 //!     interpreter ──Step──> Ahead ──Stretch──> channel ──> Walk        one thread before, one after
+//!          └────── emptied <── channel <───────────────────┘
 //! ```
 
 use super::line_table::LineTable;
@@ -11,6 +12,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use trueaxis_machine::axis::Command;
 use trueaxis_motion::axis_path::{AxisPath, Fault};
 use trueaxis_motion::{Node, PathStep};
+use trueaxis_nc::lexer::Token;
 use trueaxis_nc::moves::{AxisSet, Event, Move, MoveKind, Step};
 use trueaxis_nc::{Follower, KnownPosition};
 
@@ -29,6 +31,7 @@ pub(super) struct Stretch {
     pub steps: Vec<Ahead>,
     /// Of all steps.
     pub nodes: Vec<Node>,
+    pub words: Vec<Words>,
 }
 
 /// A step of the program, and where the axes go by it as it is.
@@ -41,8 +44,8 @@ pub(super) struct Ahead {
     pub nodes: Range<usize>,
     /// Of a rapid: the axes that it leads to where a cut begins.
     pub begins_cut: AxisSet,
-    /// The words of its line, if it moves and is of the program itself.
-    pub words: Option<Box<Words>>,
+    /// Which words of the stretch are those of its line, if it moves and is of the program itself.
+    pub words: Option<usize>,
     /// Why it cannot be executed.
     pub fault: Option<Fault>,
 }
@@ -73,25 +76,56 @@ fn lead_to_cut(steps: &mut [Ahead]) {
     }
 }
 
-/// Gathers what the interpreter hands out.
+/// Gathers what the interpreter hands out. Stretches that were written come back to be filled again: what one thread
+/// allocates another would free, and wait for it.
 pub(super) struct Gather<'m> {
     nominal: AxisPath<'m>,
     table: &'m LineTable<'m>,
     stretch: Stretch,
+    tokens: Vec<Token>,
     /// `None` as soon as no receiver is left.
     to: Option<SyncSender<Stretch>>,
+    back: Receiver<Stretch>,
     points: u64,
+}
+
+/// The other end of a [`Gather`].
+pub(super) struct Stretches {
+    /// In the order of the program.
+    pub next: Receiver<Stretch>,
+    /// For those that were written.
+    pub written: SyncSender<Stretch>,
 }
 
 impl<'m> Gather<'m> {
     /// With the end at which the stretches come out.
-    pub fn along(nominal: AxisPath<'m>, table: &'m LineTable<'m>) -> (Self, Receiver<Stretch>) {
-        let (to, from) = sync_channel(WAITING);
-        (Self { nominal, table, stretch: Stretch::default(), to: Some(to), points: 0 }, from)
+    pub fn along(nominal: AxisPath<'m>, table: &'m LineTable<'m>) -> (Self, Stretches) {
+        let (to, next) = sync_channel(WAITING);
+        let (written, back) = sync_channel(WAITING + 2);
+        let (stretch, tokens, to) = (Stretch::default(), Vec::new(), Some(to));
+        let gather = Self { nominal, table, stretch, tokens, to, back, points: 0 };
+        (gather, Stretches { next, written })
+    }
+
+    /// An empty stretch.
+    fn empty(&mut self) -> Stretch {
+        let Ok(mut stretch) = self.back.try_recv() else { return Stretch::default() };
+        stretch.steps.clear();
+        stretch.nodes.clear();
+        stretch.words.clear();
+        stretch
+    }
+
+    /// Reads the words of a line of the program; their number in the stretch.
+    fn words(&mut self, line: u32) -> usize {
+        let words = self.table.words_with(line, &mut self.tokens);
+        self.stretch.words.push(words);
+        self.stretch.words.len() - 1
     }
 
     fn send(&mut self) {
-        let stretch = std::mem::take(&mut self.stretch);
+        let next = self.empty();
+        let stretch = std::mem::replace(&mut self.stretch, next);
         let heard = self.to.as_ref().is_some_and(|to| to.send(stretch).is_ok());
         if !heard {
             self.to = None;
@@ -125,7 +159,7 @@ impl Follower for Gather<'_> {
         let begins_cut = AxisSet::default();
         let words = match &step {
             Step::Move(m) if m.origin.program == 0 && m.origin.line > 0 => {
-                Some(Box::new(self.table.words(m.origin.line)))
+                Some(self.words(m.origin.line))
             }
             _ => None,
         };

@@ -166,7 +166,7 @@ impl Block<'_> {
         let words: Vec<String> =
             texts.iter().map(|put| format!("{}{equals}{}", put.letters, put.text)).collect();
         if let Some(radius) = self.words.circle_words.first() {
-            self.edits.put(radius.clone(), words.join(" "));
+            self.edits.put(radius.clone(), &words.join(" "));
         }
         Ok(())
     }

@@ -285,8 +285,8 @@ impl Block<'_> {
     /// Writes a number into a word; where the word is computed, adds what is missing.
     pub(super) fn put_number(&mut self, word: &Word, value: f64, of: Of) -> Result<(), Fault> {
         let (true, Some(old)) = (word.computed, word.value) else {
-            let text = self.grid.text(value, of, self.control);
-            self.edits.put(word.number.clone(), text);
+            let (grid, control) = (self.grid, self.control);
+            self.edits.put_with(word.number.clone(), |text| grid.write(text, value, of, control));
             return Ok(());
         };
         let by = value - old;
@@ -318,7 +318,7 @@ impl Block<'_> {
                 (format!("+QL{local}"), line)
             }
         };
-        self.edits.put(word.number.clone(), text);
+        self.edits.put(word.number.clone(), &text);
         self.expressions.push(Expression { line: self.m.origin.line, was, is });
         Ok(())
     }

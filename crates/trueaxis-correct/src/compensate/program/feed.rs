@@ -57,7 +57,7 @@ impl Block<'_> {
                 let hint = "write a number after F";
                 return Err(refusal(self.m.origin, "computed-feed", message, hint));
             }
-            Some(word) => self.edits.put(word.number.clone(), text),
+            Some(word) => self.edits.put(word.number.clone(), &text),
             None => puts.push(Put { letters: "F", text }),
         }
         Ok(again)

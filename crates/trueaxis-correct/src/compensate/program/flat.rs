@@ -180,7 +180,7 @@ impl Flat<'_> {
                 range.end -= 1;
             }
             let text = value.map_or(String::new(), |v| number(v, source, range.start, program));
-            edits.put(range, text);
+            edits.put(range, &text);
         }
         let words = Words::read(source, program.dialect(), line.clone());
         self.modes.follow(&words);
@@ -193,7 +193,7 @@ impl Flat<'_> {
         }
         if words.front > line.start {
             let new = String::from_utf8_lossy(&self.front(program, &line)).into_owned();
-            edits.put(line.start..words.front, new.trim_end().to_owned());
+            edits.put(line.start..words.front, new.trim_end());
         }
         self.restate(program, &words, told, &mut edits);
         let was_blank = source[line.clone()].iter().all(u8::is_ascii_whitespace);
@@ -270,13 +270,13 @@ impl Flat<'_> {
         let ([m], true) = (&told.moves[..], self.after_cycle) else { return };
         let klartext = program.dialect().control == Control::Heidenhain;
         if klartext && words.feed.is_none() && m.kind != MoveKind::Rapid {
-            edits.put(words.end..words.end, format!(" F{}", cycles::klartext_feed(m, self.modes)));
+            edits.put(words.end..words.end, &format!(" F{}", cycles::klartext_feed(m, self.modes)));
             self.after_cycle = false;
         } else if klartext {
             self.after_cycle = words.feed.is_none() || m.kind == MoveKind::Rapid;
         } else {
             if let Some(code) = cycles::motion_code(m).filter(|_| words.motion.is_none()) {
-                edits.put(words.front..words.front, code.to_owned());
+                edits.put(words.front..words.front, code);
             }
             self.after_cycle = false;
         }

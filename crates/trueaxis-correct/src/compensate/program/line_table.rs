@@ -4,6 +4,7 @@ use super::words::Words;
 use rayon::prelude::*;
 use std::ops::Range;
 use trueaxis_nc::Program;
+use trueaxis_nc::lexer::Token;
 
 /// Bytes that are searched for line ends by one task.
 const BLOCK: usize = 1 << 20;
@@ -59,7 +60,12 @@ impl<'p> LineTable<'p> {
 
     /// The words of a line from 1, as they are written.
     pub fn words(&self, line: u32) -> Words {
-        Words::read(self.source(), self.program.dialect(), self.line(line))
+        self.words_with(line, &mut Vec::new())
+    }
+
+    /// The same with room for its tokens that is used again.
+    pub fn words_with(&self, line: u32, tokens: &mut Vec<Token>) -> Words {
+        Words::read_with(self.source(), self.program.dialect(), self.line(line), tokens)
     }
 }
 

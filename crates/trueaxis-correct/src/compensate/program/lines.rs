@@ -15,27 +15,27 @@ impl Block<'_> {
         if let (true, Some(motion)) = (vectors, &self.words.motion)
             && motion.len() == 1
         {
-            self.edits.put(motion.clone(), "LN".to_owned());
+            self.edits.put(motion.clone(), "LN");
         }
         for put in puts {
             let at = if put.letters == "F" { end } else { room };
-            self.edits.put(at..at, format!(" {}{}", put.letters, put.text));
+            self.edits.put_with(at..at, |out| out.extend([" ", put.letters, &put.text]));
         }
     }
 
     fn line_for_circle(&mut self) {
         let line = if self.control == Control::Heidenhain { "L" } else { "G1" };
         match &self.words.motion {
-            Some(motion) => self.edits.put(motion.clone(), line.to_owned()),
+            Some(motion) => self.edits.put(motion.clone(), line),
             None => {
                 let at = self.words.front;
                 let beginning = at == 0 || matches!(self.source[at - 1], b'\n' | b'\r');
                 let text = if beginning { format!("{line} ") } else { format!(" {line}") };
-                self.edits.put(at..at, text);
+                self.edits.put(at..at, &text);
             }
         }
         for range in &self.words.circle_words {
-            self.edits.put(range.clone(), String::new());
+            self.edits.put(range.clone(), "");
         }
     }
 
@@ -72,7 +72,7 @@ impl Block<'_> {
             return;
         }
         for range in &self.words.at_end {
-            self.edits.put(range.clone(), String::new());
+            self.edits.put(range.clone(), "");
             let text = self.text_of(range);
             if let Some(last) = self.further.last_mut() {
                 last.push(' ');

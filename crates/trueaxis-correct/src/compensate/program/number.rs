@@ -1,5 +1,6 @@
 //! Numbers as they are put into a program.
 
+use std::fmt::Write;
 use trueaxis_nc::Control;
 
 /// The least increments of the control.
@@ -147,6 +148,14 @@ impl Grid {
 
     /// The text of a number, as long as it has to be.
     pub fn text(self, value: f64, of: Of, control: Control) -> String {
+        let mut text = String::new();
+        self.write(&mut text, value, of, control);
+        text
+    }
+
+    /// Puts the text of a number after another text.
+    pub fn write(self, text: &mut String, value: f64, of: Of, control: Control) {
+        let from = text.len();
         let value = value / self.scale(of) + 0.0;
         let digits = match self.step(of) {
             Some(_) => Some(self.digits[of as usize]),
@@ -154,22 +163,22 @@ impl Grid {
             None if self.scale(of) != 1.0 => Some(12),
             None => None,
         };
-        let mut text = match digits {
-            Some(digits) => decimal(value, digits),
-            None => format!("{value}"),
-        };
-        if digits.is_some() && text.contains('.') {
-            text.truncate(text.trim_end_matches('0').trim_end_matches('.').len());
+        match digits {
+            Some(digits) => decimal(text, value, digits),
+            None => put(text, format_args!("{value}")),
         }
-        if text == "-0" {
-            text.remove(0);
+        if digits.is_some() && text[from..].contains('.') {
+            let kept = text[from..].trim_end_matches('0').trim_end_matches('.').len();
+            text.truncate(from + kept);
+        }
+        if &text[from..] == "-0" {
+            text.remove(from);
         }
         match control {
-            Control::Fanuc | Control::Haas if !text.contains('.') => text.push('.'),
-            Control::Heidenhain if !text.starts_with('-') => text.insert(0, '+'),
+            Control::Fanuc | Control::Haas if !text[from..].contains('.') => text.push('.'),
+            Control::Heidenhain if !text[from..].starts_with('-') => text.insert(from, '+'),
             _ => {}
         }
-        text
     }
 }
 
@@ -178,12 +187,12 @@ const COUNTED: f64 = 1e15;
 
 /// A value with so many digits after the point. Values on the grid are whole multiples of the last digit, and the long way to
 /// digits, which is right for any value, is not needed.
-fn decimal(value: f64, digits: usize) -> String {
+fn decimal(text: &mut String, value: f64, digits: usize) {
     let size = value.abs() * 10_f64.powi(digits as i32);
     let whole = size.round();
     // Not a number and halves go the long way.
     if digits == 0 || !(whole < COUNTED && (size - whole).abs() < 0.25) {
-        return format!("{value:.digits$}");
+        return put(text, format_args!("{value:.digits$}"));
     }
     let mut bytes = [b'0'; 32];
     let (mut rest, mut at) = (whole as u64, bytes.len());
@@ -201,7 +210,12 @@ fn decimal(value: f64, digits: usize) -> String {
         at -= 1;
         bytes[at] = b'-';
     }
-    std::str::from_utf8(&bytes[at..]).unwrap_or_default().to_owned()
+    text.push_str(std::str::from_utf8(&bytes[at..]).unwrap_or_default());
+}
+
+fn put(text: &mut String, words: std::fmt::Arguments<'_>) {
+    // A text takes everything.
+    let _ = text.write_fmt(words);
 }
 
 #[cfg(test)]
@@ -221,10 +235,14 @@ mod tests {
             let whole = (random >> (11 + k % 47)) as f64;
             let part = [0.0, 0.5, 0.2, 0.3][k % 4];
             let value = (whole + part) / scale * if random & 1 == 0 { 1.0 } else { -1.0 };
-            assert_eq!(decimal(value, digits), format!("{value:.digits$}"), "{value:e} {digits}");
+            let mut text = String::new();
+            decimal(&mut text, value, digits);
+            assert_eq!(text, format!("{value:.digits$}"), "{value:e} {digits}");
         }
         for value in [0.0, -0.0, f64::NAN, f64::INFINITY, 1e15, 1e300, -1e-9, 0.05, 0.15] {
-            assert_eq!(decimal(value, 1), format!("{value:.1}"));
+            let mut text = String::new();
+            decimal(&mut text, value, 1);
+            assert_eq!(text, format!("{value:.1}"));
         }
     }
 

@@ -47,32 +47,48 @@ pub(super) struct Text<'p> {
     executed: bool,
 }
 
-/// Changes of one line: what stands in a range becomes other text.
+/// Changes of one line: what stands in a range becomes other text. Used again line by line, it allocates nothing.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Edits(Vec<(Range<usize>, String)>);
+pub(super) struct Edits {
+    /// What is replaced, and where the text for it stands in `text`.
+    places: Vec<(Range<usize>, Range<usize>)>,
+    text: String,
+}
 
 impl Edits {
-    pub fn put(&mut self, range: Range<usize>, text: String) {
-        self.0.push((range, text));
+    pub fn put(&mut self, range: Range<usize>, text: &str) {
+        self.put_with(range, |out| out.push_str(text));
+    }
+
+    /// With a text that is written at once.
+    pub fn put_with(&mut self, range: Range<usize>, write: impl FnOnce(&mut String)) {
+        let from = self.text.len();
+        write(&mut self.text);
+        self.places.push((range, from..self.text.len()));
     }
 
     pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.places.is_empty()
     }
 
-    pub fn applied(self, source: &[u8], line: Range<usize>) -> Vec<u8> {
+    pub fn clear(&mut self) {
+        self.places.clear();
+        self.text.clear();
+    }
+
+    pub fn applied(mut self, source: &[u8], line: Range<usize>) -> Vec<u8> {
         let mut out = Vec::with_capacity(line.len() + 32);
         self.apply(source, line, &mut out);
         out
     }
 
-    fn apply(mut self, source: &[u8], line: Range<usize>, out: &mut Vec<u8>) {
+    fn apply(&mut self, source: &[u8], line: Range<usize>, out: &mut Vec<u8>) {
         // Stable: what is put at one place keeps its order.
-        self.0.sort_by_key(|(range, _)| range.start);
+        self.places.sort_by_key(|(range, _)| range.start);
         let mut at = line.start;
-        for (range, text) in self.0 {
+        for (range, text) in &self.places {
             out.extend_from_slice(&source[at..range.start.max(at)]);
-            out.extend_from_slice(text.as_bytes());
+            out.extend_from_slice(self.text[text.clone()].as_bytes());
             at = range.end.max(at);
         }
         out.extend_from_slice(&source[at..line.end]);
@@ -145,8 +161,8 @@ impl<'p> Text<'p> {
         }
     }
 
-    /// The words of a line from 1, lengths in mm, and what lasts there; they are read already.
-    pub fn words(&mut self, line: u32, mut read: Box<Words>) -> (Box<Words>, Modes) {
+    /// Makes the words of a line from 1, which are read already, lengths in mm; what lasts there.
+    pub fn words(&mut self, line: u32, read: &mut Words) -> Modes {
         let index = line as usize;
         if self.has_modes && !self.executed && index > self.modes.0 {
             for number in self.modes.0 + 1..=index {
@@ -155,7 +171,7 @@ impl<'p> Text<'p> {
             self.modes.0 = index;
         }
         read.scale(self.modes.1.unit);
-        (read, self.modes.1)
+        self.modes.1
     }
 
     /// The line was executed and stays as it is; `false` if it was changed before.
@@ -171,7 +187,12 @@ impl<'p> Text<'p> {
 
     /// The line is changed and others follow it; `false` if it was executed before with another
     /// outcome.
-    pub fn change(&mut self, line: u32, edits: Edits, [before, further]: [&[String]; 2]) -> bool {
+    pub fn change(
+        &mut self,
+        line: u32,
+        edits: &mut Edits,
+        [before, further]: [&[String]; 2],
+    ) -> bool {
         let index = line as usize - 1;
         let is_first = self.lines[index] == Line::AsItWas;
         if !is_first && self.lines[index] == Line::Seen {
@@ -198,7 +219,13 @@ impl<'p> Text<'p> {
     }
 
     /// The changed line, and the others.
-    fn put(&self, line: u32, edits: Edits, [before, further]: [&[String]; 2], out: &mut Vec<u8>) {
+    fn put(
+        &self,
+        line: u32,
+        edits: &mut Edits,
+        [before, further]: [&[String]; 2],
+        out: &mut Vec<u8>,
+    ) {
         let ending = self.table.ending(line);
         let between: &[u8] = if ending.is_empty() { b"\n" } else { ending };
         for first in before {

@@ -14,6 +14,7 @@ use super::number::{Grid, Of, Unit};
 use super::refuse::{again, cone, refusal};
 use super::stand::{Cut, Sample, Stand};
 use super::text::{Edits, Modes, Text};
+use super::turns::Stop;
 use super::words::Words;
 use super::{ProgramOptions, residual_of_pieces, residual_share};
 use trueaxis_machine::Machine;
@@ -64,6 +65,10 @@ pub(super) struct Walk<'w> {
     exact: Command,
     /// The written program stands where nothing was corrected: the next block leads from there.
     approaching: bool,
+    /// Used again block by block.
+    edits: Edits,
+    samples: Vec<Sample>,
+    stops: Vec<Stop>,
     /// Where the move before ended by the program as it is, with what was commanded there; none after a change of the control.
     before: Option<(Command, Sample)>,
 }
@@ -116,6 +121,9 @@ impl<'w> Walk<'w> {
             circle_gone: false,
             exact: Command::default(),
             approaching: true,
+            edits: Edits::default(),
+            samples: Vec::new(),
+            stops: Vec::new(),
             before: None,
         })
     }
@@ -132,20 +140,23 @@ impl<'w> Walk<'w> {
     }
 
     /// Writes a stretch of the program.
-    pub fn take(&mut self, mut stretch: Stretch) {
+    pub fn take(&mut self, stretch: &mut Stretch) {
         if let Some(first) = stretch.steps.first() {
             let places = stretch.nodes.iter().map(|node| node.command);
             self.corrector.prepare(places, &first.begin);
         }
-        for ahead in &mut stretch.steps {
+        let Stretch { steps, nodes, words } = stretch;
+        for ahead in steps {
             if self.fault.is_some() {
                 return;
             }
-            let words = ahead.words.take();
             let done = match (&ahead.fault, &ahead.step) {
                 (Some(fault), _) => Err(fault.clone()),
                 (None, Step::Event(event, origin)) => self.event(&ahead.step, event, *origin),
-                (None, Step::Move(m)) => self.travel(m, (ahead, words), &stretch.nodes),
+                (None, Step::Move(m)) => {
+                    let read = ahead.words.map(|k| &mut words[k]);
+                    self.travel(m, (ahead, read), nodes)
+                }
             };
             self.fault = done.err().or_else(|| self.written.faults.pop());
         }
@@ -198,7 +209,7 @@ impl<'w> Walk<'w> {
     fn travel(
         &mut self,
         m: &Move,
-        (ahead, read): (&Ahead, Option<Box<Words>>),
+        (ahead, read): (&Ahead, Option<&mut Words>),
         nodes: &[Node],
     ) -> Result<(), Fault> {
         let way = Way {
@@ -208,19 +219,21 @@ impl<'w> Walk<'w> {
         };
         self.vectors |= m.direction.is_some();
         let begins_cut = (m.kind == MoveKind::Rapid).then_some(ahead.begins_cut);
-        let words = read.map(|read| self.words(m.origin.line, read));
-        let known = words.as_ref().map(|(words, modes)| (&**words, *modes));
+        let known = read.map(|read| {
+            let modes = self.words(m.origin.line, read);
+            (&*read, modes)
+        });
         self.written_by(m, &way, known, begins_cut)?;
-        let incremental = words.as_ref().is_some_and(|(_, modes)| modes.incremental);
+        let incremental = known.is_some_and(|(_, modes)| modes.incremental);
         self.computed.moved(m, known.map(|(words, _)| words), incremental);
         Ok(())
     }
 
     /// The words of a line of the program, with the values of those that are computed.
-    fn words(&mut self, line: u32, read: Box<Words>) -> (Box<Words>, Modes) {
-        let (mut words, modes) = self.text.words(line, read);
-        self.computed.evaluate(&mut words, self.text.source(), modes.unit);
-        (words, modes)
+    fn words(&mut self, line: u32, read: &mut Words) -> Modes {
+        let modes = self.text.words(line, read);
+        self.computed.evaluate(read, self.text.source(), modes.unit);
+        modes
     }
 
     fn written_by(
@@ -323,7 +336,7 @@ impl<'w> Walk<'w> {
             feed_again: self.feed_again.take(),
             resting: self.computed.of_block(words),
             locals: &locals,
-            edits: Edits::default(),
+            edits: std::mem::take(&mut self.edits),
             before: Vec::new(),
             expressions: Vec::new(),
             further: Vec::new(),
@@ -373,14 +386,16 @@ impl<'w> Walk<'w> {
         let is_circle = matches!(m.kind, MoveKind::Arc(_) | MoveKind::SpatialArc(_));
         let is_line = is_circle && !kept && block.arc.is_none();
         self.found.note(&block, is_line, self.feed_again.is_some(), &samples);
-        let (edits, before, further) = (block.edits, block.before, block.further);
+        let (mut edits, before, further) = (block.edits, block.before, block.further);
         let unchanged = edits.is_empty() && further.is_empty();
         let line = m.origin.line;
         self.found.executed(line, first_want);
         let fits = match unchanged {
             true => self.text.keep(line),
-            false => self.text.change(line, edits, [&before, &further]),
+            false => self.text.change(line, &mut edits, [&before, &further]),
         };
+        edits.clear();
+        (self.edits, self.samples) = (edits, samples);
         if fits { Ok(()) } else { Err(again(m.origin)) }
     }
 

@@ -80,10 +80,22 @@ impl Words {
 
     /// Reads the block between two bytes.
     pub fn read(source: &[u8], dialect: &'static Dialect, line: Range<usize>) -> Self {
-        let tokens: Vec<Token> = Lexer::new(source, dialect, line.start)
-            .take_while(|t| t.start < line.end && t.kind != TokenKind::LineEnd)
-            .filter(|t| !matches!(t.kind, TokenKind::Space | TokenKind::Comment))
-            .collect();
+        Self::read_with(source, dialect, line, &mut Vec::new())
+    }
+
+    /// The same with room for its tokens that is used again.
+    pub fn read_with(
+        source: &[u8],
+        dialect: &'static Dialect,
+        line: Range<usize>,
+        tokens: &mut Vec<Token>,
+    ) -> Self {
+        tokens.clear();
+        tokens.extend(
+            Lexer::new(source, dialect, line.start)
+                .take_while(|t| t.start < line.end && t.kind != TokenKind::LineEnd)
+                .filter(|t| !matches!(t.kind, TokenKind::Space | TokenKind::Comment)),
+        );
         let words = Self { front: line.start, end: line.start, ..Self::default() };
         let mut scan = Scan { source, control: dialect.control, tokens, at: 0, words };
         scan.all();
@@ -97,7 +109,7 @@ const OPERATORS: [&str; 6] = ["DIV", "MOD", "AND", "OR", "XOR", "EX"];
 struct Scan<'s> {
     source: &'s [u8],
     control: Control,
-    tokens: Vec<Token>,
+    tokens: &'s [Token],
     at: usize,
     words: Words,
 }
@@ -138,7 +150,9 @@ impl Scan<'_> {
             match token.kind {
                 TokenKind::Skip => self.words.skip = Some(token.start..token.end),
                 TokenKind::Number if self.control == Control::Heidenhain => {}
-                TokenKind::Letter if self.upper(token) == "N" => self.at += 1,
+                TokenKind::Letter if self.source[token.start].eq_ignore_ascii_case(&b'N') => {
+                    self.at += 1;
+                }
                 _ => return,
             }
             self.at += 1;
@@ -246,7 +260,8 @@ impl Scan<'_> {
         if self.control == Control::Heidenhain && !self.has_value(1) {
             // C X+10 Y+0 DR+: a circle; L and others are the kind of block.
             self.at += 1;
-            return self.kind_of_block(&char::from(letter).to_string(), token);
+            let mut name = [0; 4];
+            return self.kind_of_block(char::from(letter).encode_utf8(&mut name), token);
         }
         self.at += 1;
         let word = self.value(token.start);

@@ -164,7 +164,7 @@ pub(super) fn head_without(
             letter => letters.contains(&letter),
         };
         if !stays {
-            edits.put(range, String::new());
+            edits.put(range, "");
         }
     }
     let text = String::from_utf8_lossy(&edits.applied(source, line.clone())).into_owned();

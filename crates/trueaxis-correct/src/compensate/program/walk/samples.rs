@@ -26,11 +26,14 @@ impl Walk<'_> {
             return Err(refusal(m.origin, "not-correctable", message, hint));
         }
         let begins = self.begins(m, way.begin);
-        let mut samples = Vec::with_capacity(way.nodes.len() + 1);
+        let mut samples = std::mem::take(&mut self.samples);
+        samples.clear();
         samples.push(self.first(way.begin, begins));
         let (mut last, mut side) = (*self.written.command(), *self.corrector.approach());
-        for stop in self.stops(way, whole) {
-            let done = self.correct(m, way, &stop, (&last, &side))?;
+        let mut stops = std::mem::take(&mut self.stops);
+        self.find_stops(way, whole, &mut stops);
+        for stop in &stops {
+            let done = self.correct(m, way, stop, (&last, &side))?;
             let nowhere = stop.turns && done.command == last;
             side = self.corrector.side_behind(&side, &last, &done.command);
             last = done.command;
@@ -40,6 +43,7 @@ impl Walk<'_> {
                 samples.push(Sample { turns: stop.turns, side, ..sample });
             }
         }
+        self.stops = stops;
         self.before = samples.last().zip(way.nodes.last()).map(|(s, node)| (node.command, *s));
         Ok(samples)
     }
@@ -72,41 +76,37 @@ impl Walk<'_> {
         self.corrector.at(&place, None).map_or(from, |c| c.command)
     }
 
-    fn stops(&self, way: &Way<'_>, whole: bool) -> Vec<Stop> {
+    /// The places of a move, and those where an axis reverses.
+    fn find_stops(&self, way: &Way<'_>, whole: bool, found: &mut Vec<Stop>) {
+        found.clear();
         let total: f64 = way.nodes.iter().map(|n| n.length).sum();
         let (mut length, count) = (0.0, way.nodes.len());
-        let only_position = self.written.is_only_tilted();
-        let reverses = self.corrector.reverses();
-        let at = |u: f64, nominal: &Command, prepared: Option<usize>| {
-            let ahead = || prepared.and_then(|k| self.corrector.mean_prepared(k));
-            let mean = match reverses {
-                true => ahead().unwrap_or_else(|| self.corrector.mean(nominal, only_position)),
-                false => *nominal,
-            };
-            At { u, nominal: *nominal, mean, prepared }
-        };
-        let mut places = Vec::with_capacity(count);
-        for (k, node) in way.nodes.iter().enumerate() {
+        let places = way.nodes.iter().enumerate().filter_map(|(k, node)| {
             length += node.length;
             let is_last = k + 1 == count;
-            if is_last || !whole {
-                let u = if is_last || total <= 0.0 { 1.0 } else { length / total };
-                places.push(at(u, &node.command, Some(way.first + k)));
-            }
-        }
-        let side = self.corrector.approach();
-        if reverses && !whole {
-            let begin = at(0.0, way.begin, None);
-            let mean = |nominal: &Command| self.corrector.mean(nominal, only_position);
-            return stops(&begin, side, &places, (self.corrector.least(), &mean));
-        }
-        let (mut side, mut last) = (*side, *way.begin);
-        let each = places.iter().map(|p| {
-            side = reached(&side, &last, &p.nominal);
-            last = p.nominal;
-            Stop { u: p.u, nominal: p.nominal, side, prepared: p.prepared, turns: false }
+            let u = if is_last || total <= 0.0 { 1.0 } else { length / total };
+            (is_last || !whole).then_some((u, &node.command, Some(way.first + k)))
         });
-        each.collect()
+        let approach = self.corrector.approach();
+        if self.corrector.reverses() && !whole {
+            let only_position = self.written.is_only_tilted();
+            let mean = |nominal: &Command| self.corrector.mean(nominal, only_position);
+            let at = |(u, nominal, prepared): (f64, &Command, Option<usize>)| {
+                let ahead = prepared.and_then(|k| self.corrector.mean_prepared(k));
+                let mean = ahead.unwrap_or_else(|| mean(nominal));
+                At { u, nominal: *nominal, mean, prepared }
+            };
+            let begin = at((0.0, way.begin, None));
+            let places: Vec<At> = places.map(at).collect();
+            *found = stops(&begin, approach, &places, (self.corrector.least(), &mean));
+            return;
+        }
+        let (mut side, mut last) = (*approach, *way.begin);
+        found.extend(places.map(|(u, nominal, prepared)| {
+            side = reached(&side, &last, nominal);
+            last = *nominal;
+            Stop { u, nominal: *nominal, side, prepared, turns: false }
+        }));
     }
 
     /// The written numbers lead an axis to its place from another side than it was corrected for:
