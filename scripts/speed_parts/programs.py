@@ -109,7 +109,7 @@ def ring_fanuc(lines):
 
 
 def ring_heidenhain(lines):
-    yield "0 BEGIN PGM RING MM\n1 TOOL CALL 1 Z S18000\n2 L Z+100 R0 FMAX M3\n3 M128\n4 L X+57 Y+0 Z+30 A+65 C+90 FMAX\n"
+    yield "0 BEGIN PGM RING MM\n1 TOOL CALL 1 Z S18000\n2 L Z+60 R0 FMAX M3\n3 M128\n4 L X+57 Y+0 Z+30 A+65 C+90 FMAX\n"
     number = 4
     for (x, y, z), c in ring(lines):
         number += 1

@@ -3,7 +3,7 @@
 import { split, type App, type Tab, type TabHandle } from "../app.ts";
 import { fill, h } from "../dom.ts";
 import type { Figure } from "../figure/index.ts";
-import type { Request } from "../api.ts";
+import type { FileKind, Request } from "../api.ts";
 import { isAbort, Question, showRefusal } from "./measure/ask.ts";
 import { downloadButton, filesPanel, saveForm, type Made } from "./measure/made.ts";
 import { headPanel, remarksPanel, sectionPanel, type Shown } from "./measure/shown.ts";
@@ -106,12 +106,12 @@ class CompensateTab implements TabHandle {
     // A link of the first page names a study only.
     const of = KINDS.find(([key]) => key === params.of)?.[0] ?? (params.study ? "blank" : "program");
     const alone = Object.keys(params).length === 0 && !machine;
-    const program = params.program ?? (alone ? (example?.path ?? null) : null);
+    const program = params.program ?? (alone ? (example?.path ?? this.only("program")) : null);
     const blank = project?.files.find((file) => file.kind === "blank")?.path ?? null;
     return {
       ...NOTHING,
       of,
-      machine: params.machine ?? (alone ? (example?.machine ?? null) : machine),
+      machine: params.machine ?? (alone ? (example?.machine ?? this.only("machine")) : machine),
       program,
       setup: params.setup ?? null,
       control: params.control ?? null,
@@ -124,6 +124,12 @@ class CompensateTab implements TabHandle {
       residual: params.residual ?? "",
       options: params.options?.split(",").filter(Boolean) ?? [],
     };
+  }
+
+  /** The file of a kind, where the project has one. */
+  private only(kind: FileKind): string | null {
+    const files = (this.app.state.project?.files ?? []).filter((file) => file.kind === kind);
+    return files.length === 1 ? (files[0]?.path ?? null) : null;
   }
 
   private go(change: Partial<Choice>): void {
