@@ -181,11 +181,11 @@ export class App {
     const load = async (): Promise<void> => {
       fresh.handle = (await entry.load()).mount(host, this);
       host.prepend(h("h1", { class: "visually-hidden" }, entry.title));
-      this.tabs.querySelector(`[data-tab="${entry.name}"]`)?.setAttribute("aria-controls", host.id);
     };
     const fresh: Mounted = { host, handle: null, ready: Promise.resolve() };
     this.mounted.set(entry.name, fresh);
     this.main.append(host);
+    this.tabs.querySelector(`[data-tab="${entry.name}"]`)?.setAttribute("aria-controls", host.id);
     fresh.ready = load();
     await fresh.ready;
     return fresh;
