@@ -24,7 +24,7 @@ pub mod three_phase;
 mod timeline;
 mod trapezoid;
 
-pub use element::{Element, Part, Tangent, Turn};
+pub use element::{Element, Part, Parts, Tangent, Turn};
 pub use planner::Planner;
 pub use timeline::{Shape, State, Timeline};
 pub use trapezoid::without_jerk_s;

@@ -3,7 +3,7 @@
 
 use super::{AxisPath, PathStep};
 use crate::curve::Curve;
-use crate::timing::{Element, Part, Tangent, Turn};
+use crate::timing::{Element, Part, Parts, Tangent, Turn};
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::axis::{Command, MAX_AXES};
 
@@ -86,7 +86,8 @@ pub(super) fn sampled(
     course: &mut Course<'_>,
 ) -> Option<Element> {
     let cells = (turned_rad / CELL_RAD).ceil().clamp(1.0, MOST_CELLS);
-    let mut sampler = Sampler { length, course, parts: Vec::new(), ends: [Tangent::default(); 2] };
+    let mut sampler =
+        Sampler { length, course, parts: Parts::new(), ends: [Tangent::default(); 2] };
     let mut at = *begin;
     for k in 0..cells as u32 {
         let [from, to] = [k, k + 1].map(|k| f64::from(k) / cells);
@@ -99,7 +100,7 @@ pub(super) fn sampled(
 struct Sampler<'a, 'b> {
     length: f64,
     course: &'a mut Course<'b>,
-    parts: Vec<Part>,
+    parts: Parts,
     ends: [Tangent; 2],
 }
 

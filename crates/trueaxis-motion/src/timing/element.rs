@@ -1,6 +1,7 @@
 //! What the axes do between two nodes of the path: their derivatives by its length σ.
 
 use super::Node;
+use smallvec::{SmallVec, smallvec};
 use trueaxis_machine::axis::{Command, MAX_AXES};
 
 /// dq/dσ and d²q/dσ² of each axis at an end of an element.
@@ -30,6 +31,10 @@ pub struct Part {
     pub circular: bool,
 }
 
+/// The parts of an element: mostly one, which needs no memory of its own. What one thread allocates here another
+/// frees, and both wait for it.
+pub type Parts = SmallVec<[Part; 1]>;
+
 /// One element of the path: a line, an arc or a sampled curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Element {
@@ -38,7 +43,7 @@ pub struct Element {
     /// At its end.
     pub end: Tangent,
     /// From its begin to its end; none for a straight line, whose ends say all.
-    pub parts: Vec<Part>,
+    pub parts: Parts,
 }
 
 /// An arc, or a helix, in the space of the axes, docs/model.md eq. 43.
@@ -67,7 +72,7 @@ impl Element {
     pub fn straight(from: &Command, to: &Command, length: f64) -> Self {
         let slope = std::array::from_fn(|i| (to[i] - from[i]) / length);
         let tangent = Tangent { slope, bend: [0.0; MAX_AXES] };
-        Self { begin: tangent, end: tangent, parts: Vec::new() }
+        Self { begin: tangent, end: tangent, parts: Parts::new() }
     }
 
     /// Largest |q′| and |q″| within a distance of an end, and |q‴|.
@@ -146,7 +151,7 @@ impl Turn {
             twist: radius.map(|r| r * (widest * w * w * w + 3.0 * k * w * w)),
             circular: true,
         };
-        Element { begin: tangent(0.0), end: tangent(self.length), parts: vec![part] }
+        Element { begin: tangent(0.0), end: tangent(self.length), parts: smallvec![part] }
     }
 }
 
