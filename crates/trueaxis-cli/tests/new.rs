@@ -121,7 +121,7 @@ fn law_a_machine_by_answers_is_taken_and_its_signs_are_those_of_iso_841() {
                 "XYZ".chars().chain(tilting.map(|_| 'C')).chain(tilting).collect();
             let other = Answers { reversed, ..usual.clone() };
             for (name, answers) in [("usual.toml", &usual), ("other.toml", &other)] {
-                temporary.file(name, &machine_file(answers).expect("a machine file"));
+                temporary.file(name, machine_file(answers).expect("a machine file"));
                 done(&["check", &temporary.path(name)], 0);
             }
             let turned = |sign: f64| match tilting {
