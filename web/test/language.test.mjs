@@ -1,4 +1,4 @@
-// The frame in German: chosen in the bar, said in `lang`, the same place after the change.
+// The frame in German and Chinese: chosen in the bar, said in `lang`, the same place after the change.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { findings } from "./axe.mjs";
@@ -7,7 +7,7 @@ import { browser, server } from "./shared.mjs";
 
 const campaign = "examples/04_plan/probe-ball.toml";
 
-test("German: tabs, bar and keys; the address stays; English again", async () => {
+test("German and Chinese: tabs, bar and keys; the address stays; English again", async () => {
   const { page, context, complaints } = await open(browser, new URL(`#plan?campaign=${campaign}`, server.address).href);
   await page.waitForSelector('#tab-plan [data-test="confounded"]');
   const lang = () => page.evaluate(() => document.documentElement.lang);
@@ -29,6 +29,11 @@ test("German: tabs, bar and keys; the address stays; English again", async () =>
   // Every tab has a German name, or is called the same.
   const names = await page.locator(".tab-link").allTextContents();
   assert.deepEqual(names.slice(0, 3), ["Start", "Beschreiben", "Simulieren"]);
+  await page.selectOption(".language", "zh");
+  await page.waitForFunction(() => document.documentElement.lang === "zh");
+  await page.waitForSelector('#tab-plan [data-test="confounded"]');
+  assert.equal(await page.textContent('.tab-link[aria-selected="true"]'), "规划");
+  assert.deepEqual(await findings(page), []);
   await page.selectOption(".language", "en");
   await page.waitForFunction(() => document.documentElement.lang === "en");
   assert.deepEqual(complaints, []);

@@ -43,9 +43,9 @@ function drawBars(d: Drawing, spec: BarSpec): void {
   const names = Math.min(0.4 * d.width, 14 + 6.6 * Math.max(4, ...spec.bars.map((b) => b.name.length)));
   const values = 26 + 6.4 * Math.max(0, ...spec.bars.map((b) => valueText(b, spec).length - 2));
   const signed = spec.signed ?? spec.bars.some((b) => (b.value ?? 0) < 0);
-  const most =
-    spec.max ??
-    Math.max(1e-9, spec.limit?.value ?? 0, ...spec.bars.map((b) => Math.abs(b.value ?? 0) + 2 * (b.u ?? 0)));
+  const largest = Math.max(spec.limit?.value ?? 0, ...spec.bars.map((b) => Math.abs(b.value ?? 0) + 2 * (b.u ?? 0)));
+  // Zeros alone stand on a scale of one unit.
+  const most = spec.max ?? (largest > 0 ? largest : 1);
   const [left, right] = [names, Math.max(names + 40, d.width - values)];
   const x = (v: number): number =>
     signed ? (left + right) / 2 + (v / most) * ((right - left) / 2) : left + (v / most) * (right - left);

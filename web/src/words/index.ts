@@ -2,8 +2,9 @@
 
 import { de } from "./de.ts";
 import { en, type Words } from "./en.ts";
+import { zh } from "./zh.ts";
 
-const LANGUAGES: Readonly<Record<string, Words>> = { en, de };
+const LANGUAGES: Readonly<Record<string, Words>> = { en, de, zh };
 const KEPT = "trueaxis-language";
 
 export const languages = Object.entries(LANGUAGES).map(([code, { name }]) => ({ code, name }));

@@ -164,7 +164,10 @@ export class DescribeTab implements TabHandle {
   }
 
   private machineFiles(): string[] {
-    return (this.app.state.project?.files ?? []).filter((f) => f.kind === "machine").map((f) => f.path);
+    const paths = (this.app.state.project?.files ?? []).filter((f) => f.kind === "machine").map((f) => f.path);
+    // Test data of the program last: some of them are wrong on purpose.
+    const isTest = (path: string): boolean => /(^|\/)tests?\//.test(path);
+    return [...paths.filter((path) => !isTest(path)), ...paths.filter(isTest)];
   }
 
   private dirtyPaths(): Set<string> {
