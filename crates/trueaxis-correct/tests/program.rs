@@ -1,6 +1,8 @@
 //! Laws of compensated programs on a machine without errors: nothing to correct, nothing that is missed.
 
-use trueaxis_correct::compensate::program::{ProgramOptions, Rewritten, compensate_program};
+use trueaxis_correct::compensate::program::{
+    ProgramOptions, Rewritten, compensate_program, compensate_program_with,
+};
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::NoTables;
 use trueaxis_motion::SetUp;
@@ -63,4 +65,25 @@ fn law_the_root_mean_square_is_that_of_the_ends_of_blocks() {
     assert_eq!(increments.compared, absolute.compared);
     let difference = increments.before.tip_end_rms_mm - absolute.before.tip_end_rms_mm;
     assert!(difference.abs() < 1e-12, "{difference}");
+}
+
+/// 20,000 moves: the part that is done only grows, stays below 1, and who looks at it
+/// gets the same program.
+#[test]
+fn law_progress_grows_and_changes_nothing() {
+    let text = "machine = { name = 'm', chain = 'w b X Y Z t' }\n[tool]\nlength = '100 mm'\n\
+                [motion.X]\nEXX = { polynomial = ['0 um', '10 um'], scale = '100 mm' }\n";
+    let machine = Machine::check("m.toml", text, &NoTables).0.expect("a machine");
+    let moves: String = (0..20_000).map(|k| format!("G1 X{} Y{}\n", k % 7, k % 5)).collect();
+    let source = format!("G21 G90 G94 F500\n{moves}M2\n").into_bytes();
+    let program = Program::new("p.ngc", source, Control::LinuxCnc);
+    let (set_up, options) = (SetUp::default(), ProgramOptions::default());
+    let parts = std::sync::Mutex::new(Vec::new());
+    let note = |part: f64| parts.lock().expect("parts").push(part);
+    let (shown, _) = compensate_program_with(&machine, &program, &set_up, &options, &note);
+    let (plain, _) = compensate_program(&machine, &program, &set_up, &options);
+    let parts = parts.into_inner().expect("parts");
+    assert!(parts.len() > 3 && parts.windows(2).all(|w| w[0] <= w[1]), "{parts:?}");
+    assert!(parts.iter().all(|part| (0.0..1.0).contains(part)) && *parts.last().unwrap() > 0.7);
+    assert_eq!(shown.expect("a program").text, plain.expect("a program").text);
 }

@@ -92,6 +92,7 @@ const DRIFT: &[Column] = &[
     column("tilt_b", "tilt about Y", TILT),
     column("spindle", "temperature of the spindle", &["degC"]),
     column("ambient", "temperature of the air", &["degC"]),
+    numbered("sensor", "temperature of another sensor", &["degC"]),
 ];
 
 const ROTATION: &[Column] = &[

@@ -155,6 +155,9 @@ const TRIES: u32 = 6;
 const IDLE: f64 = 0.95;
 const ARCS: u32 = 2;
 
+/// Receives the part that is done, 0 to 1.
+pub type Progress<'p> = &'p (dyn Fn(f64) + Sync + 'p);
+
 /// Rewrites a program so that the actual tool goes where it says, and proves it by simulating the
 /// written text on the actual machine.
 ///
@@ -166,6 +169,19 @@ pub fn compensate_program(
     setup: &SetUp,
     options: &ProgramOptions,
 ) -> (Option<Rewritten>, Diagnostics) {
+    compensate_program_with(machine, program, setup, options, &|_| {})
+}
+
+/// The same, and says how far it is: by the lines that are corrected in the first try; its proof and further tries
+/// follow.
+pub fn compensate_program_with(
+    machine: &Machine,
+    program: &Program,
+    setup: &SetUp,
+    options: &ProgramOptions,
+    progress: Progress<'_>,
+) -> (Option<Rewritten>, Diagnostics) {
+    let task = (options, progress);
     let mut problems = Diagnostics::new();
     if is_compensated(program.source()) {
         let message = "the program is compensated already, its heading says so".to_owned();
@@ -175,10 +191,10 @@ pub fn compensate_program(
     }
     let machine = &super::not_twice(machine, Place::whole(program.file()), &mut problems);
     if !options.flat {
-        let (done, found) = match on_contour(machine, program, setup, options) {
+        let (done, found) = match on_contour(machine, program, setup, task) {
             OnContour::Done(done, found) => (*done, found),
             OnContour::Lost(why) => {
-                return centre_path(machine, program, setup, options, why, problems);
+                return centre_path(machine, program, setup, task, why, problems);
             }
         };
         let Some(why) = reason_to_unroll(done.as_ref(), &found) else {
@@ -196,13 +212,13 @@ pub fn compensate_program(
     else {
         return (None, problems);
     };
-    let mut answer = on_contour(machine, &once, setup, options);
+    let mut answer = on_contour(machine, &once, setup, task);
     // A cycle with computed words has numbers now: the second time it becomes its moves.
     if matches!(&answer, OnContour::Done(done, found) if reason_to_unroll(done.as_ref().as_ref(), found).is_some())
     {
         let contour = flat::Contour::Kept;
         let twice = flat::unrolled(&mounted, &once, kept, contour, &mut Diagnostics::new());
-        let twice = twice.map(|twice| on_contour(machine, &twice, setup, options));
+        let twice = twice.map(|twice| on_contour(machine, &twice, setup, task));
         if let Some(better @ OnContour::Done(..)) = twice
             && better.is_written()
         {
@@ -216,14 +232,17 @@ pub fn compensate_program(
             if let Some(why) = no_words.filter(|_| radius::is_used(machine, program, setup)) {
                 let (place, message) = (why.place.clone(), why.message.clone());
                 let why = Lost { place, message };
-                return centre_path(machine, program, setup, options, why, problems);
+                return centre_path(machine, program, setup, task, why, problems);
             }
             problems.append(found);
             (*done, problems)
         }
-        OnContour::Lost(why) => centre_path(machine, program, setup, options, why, problems),
+        OnContour::Lost(why) => centre_path(machine, program, setup, task, why, problems),
     }
 }
+
+/// What is wanted, and who is to know how far it is.
+type Task<'t> = (&'t ProgramOptions, Progress<'t>);
 
 /// Why the program has to be unrolled: a block that cannot be corrected where it stands, or a proof that does
 /// not hold with corrected expressions.
@@ -241,7 +260,7 @@ fn centre_path(
     machine: &Machine,
     program: &Program,
     setup: &SetUp,
-    options: &ProgramOptions,
+    task: Task<'_>,
     why: Lost,
     mut problems: Diagnostics,
 ) -> (Option<Rewritten>, Diagnostics) {
@@ -252,7 +271,7 @@ fn centre_path(
     match flat::unrolled(&mounted, program, setup, flat::Contour::Centre, &mut problems) {
         None => (None, problems),
         Some(unrolled) => {
-            let (done, found) = tried(machine, &unrolled, &setup.on_contour(), options);
+            let (done, found) = tried(machine, &unrolled, &setup.on_contour(), task);
             problems.append(found);
             (done, problems)
         }
@@ -294,13 +313,9 @@ const UNROLLED_FOR: [&str; 7] = [
 
 /// Corrects the words of the contour; where the program adds the radius of a tool to it, the centre of the tool
 /// must keep the residual, too.
-fn on_contour(
-    machine: &Machine,
-    program: &Program,
-    setup: &SetUp,
-    options: &ProgramOptions,
-) -> OnContour {
-    let (mut done, mut problems) = tried(machine, program, &setup.on_contour(), options);
+fn on_contour(machine: &Machine, program: &Program, setup: &SetUp, task: Task<'_>) -> OnContour {
+    let (options, _) = task;
+    let (mut done, mut problems) = tried(machine, program, &setup.on_contour(), task);
     let Some(rewritten) = done.as_mut().filter(|done| done.radius_added) else {
         return OnContour::Done(Box::new(done), problems);
     };
@@ -341,13 +356,15 @@ fn tried(
     machine: &Machine,
     program: &Program,
     setup: &SetUp,
-    options: &ProgramOptions,
+    (options, progress): Task<'_>,
 ) -> (Option<Rewritten>, Diagnostics) {
     let mut problems = Diagnostics::new();
     let mut best: Option<Rewritten> = None;
     let mut attempt = 0;
     while attempt < TRIES {
-        let (rewritten, found) = once(machine, program, setup, options, attempt);
+        // How many tries follow is not known: a bar that goes back would say less.
+        let shown: Progress<'_> = if attempt == 0 { progress } else { &|_| {} };
+        let (rewritten, found) = once(machine, program, setup, (options, shown), attempt);
         problems = found;
         let Some(rewritten) = rewritten else { return (None, problems) };
         let done = rewritten.is_within(options);
@@ -381,7 +398,7 @@ fn once(
     machine: &Machine,
     program: &Program,
     setup: &SetUp,
-    options: &ProgramOptions,
+    (options, progress): Task<'_>,
     attempt: u32,
 ) -> (Option<Rewritten>, Diagnostics) {
     let mut problems = Diagnostics::new();
@@ -399,7 +416,7 @@ fn once(
         let walk = if attempt < ARCS { walk } else { walk.without_arcs() };
         let nominal = AxisPath::new(&mounted, setup, densify(options, attempt, least), 0.01);
         let settings = Settings { report_blocks, ..setup.settings(false) };
-        let gather = Gather::along(nominal, &table);
+        let gather = Gather::along(nominal, &table, progress);
         Ok(both(gather, walk, |ahead| execute_on(&mounted, program, setup, &settings, ahead)))
     };
     let reported = computed::may_compute(program.source(), program.dialect().control);

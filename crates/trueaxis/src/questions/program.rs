@@ -7,7 +7,7 @@ use crate::report;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use trueaxis_correct::compensate::program::{
-    CorrectionLimit, Increments, MARK, ProgramOptions, Rewritten, compensate_program,
+    CorrectionLimit, Increments, MARK, ProgramOptions, Rewritten, compensate_program_with,
 };
 use trueaxis_correct::report::ProgramReport;
 use trueaxis_input::{Diagnostics, Dimension, Files, Place, parse_quantity};
@@ -149,6 +149,7 @@ fn fnv1a(bytes: &[u8]) -> u64 {
 impl Question for CompensateProgram {
     type Input = (Job, ProgramOptions, Option<String>);
     type Answer = ProgramAnswer;
+    const PROGRESS: &'static str = "Compensation";
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
         let options = self.options(problems);
@@ -169,11 +170,12 @@ impl Question for CompensateProgram {
     fn answer(
         &self,
         (job, options, price): Self::Input,
-        _: Tell<'_>,
+        progress: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<ProgramAnswer> {
-        let rewritten =
-            problems.keep(compensate_program(&job.machine, &job.program, &job.setup, &options))?;
+        let (machine, program, setup) = (&job.machine, &job.program, &job.setup);
+        let done = compensate_program_with(machine, program, setup, &options, progress);
+        let rewritten = problems.keep(done)?;
         problems.append(rewritten.unproved.clone());
         let output = match (rewritten.is_proved(), self.keep_unproved) {
             (true, _) => Some(self.output.clone()),

@@ -5,6 +5,7 @@
 //!          └────── emptied <── channel <───────────────────┘
 //! ```
 
+use super::Progress;
 use super::line_table::LineTable;
 use super::words::Words;
 use std::ops::Range;
@@ -21,6 +22,9 @@ const NODES: usize = 4096;
 
 /// Steps of a stretch that lead nowhere are not gathered for ever.
 const STEPS: usize = 4096;
+
+/// The part of the work that is done when all lines are written; the proof is the rest.
+const WRITING: f64 = 0.75;
 
 /// Stretches that wait: each some 6 MB with the words of its lines.
 const WAITING: usize = 2;
@@ -87,6 +91,9 @@ pub(super) struct Gather<'m> {
     to: Option<SyncSender<Stretch>>,
     back: Receiver<Stretch>,
     points: u64,
+    progress: Progress<'m>,
+    /// The last line of the program itself.
+    line: u32,
 }
 
 /// The other end of a [`Gather`].
@@ -99,11 +106,16 @@ pub(super) struct Stretches {
 
 impl<'m> Gather<'m> {
     /// With the end at which the stretches come out.
-    pub fn along(nominal: AxisPath<'m>, table: &'m LineTable<'m>) -> (Self, Stretches) {
+    pub fn along(
+        nominal: AxisPath<'m>,
+        table: &'m LineTable<'m>,
+        progress: Progress<'m>,
+    ) -> (Self, Stretches) {
         let (to, next) = sync_channel(WAITING);
         let (written, back) = sync_channel(WAITING + 2);
         let (stretch, tokens, to) = (Stretch::default(), Vec::new(), Some(to));
-        let gather = Self { nominal, table, stretch, tokens, to, back, points: 0 };
+        let (points, line) = (0, 0);
+        let gather = Self { nominal, table, stretch, tokens, to, back, points, progress, line };
         (gather, Stretches { next, written })
     }
 
@@ -124,6 +136,7 @@ impl<'m> Gather<'m> {
     }
 
     fn send(&mut self) {
+        (self.progress)(WRITING * f64::from(self.line) / self.table.count() as f64);
         let next = self.empty();
         let stretch = std::mem::replace(&mut self.stretch, next);
         let heard = self.to.as_ref().is_some_and(|to| to.send(stretch).is_ok());
@@ -159,6 +172,8 @@ impl Follower for Gather<'_> {
         let begins_cut = AxisSet::default();
         let words = match &step {
             Step::Move(m) if m.origin.program == 0 && m.origin.line > 0 => {
+                // A jump back is no step back.
+                self.line = self.line.max(m.origin.line);
                 Some(self.words(m.origin.line))
             }
             _ => None,
