@@ -241,7 +241,7 @@ pub fn compensate_program_with(
     }
 }
 
-/// What is wanted, and who is to know how far it is.
+/// What is wanted, and what receives the progress.
 type Task<'t> = (&'t ProgramOptions, Progress<'t>);
 
 /// Why the program has to be unrolled: a block that cannot be corrected where it stands, or a proof that does
