@@ -13439,6 +13439,22 @@ export interface ServeReportRequest {
    */
   is_simple?: boolean | null;
   /**
+   * The file of the conditions, for `evaluate`.
+   */
+  conditions?: string | null;
+  /**
+   * The radius of a circular test, for `evaluate`.
+   */
+  radius?: string | null;
+  /**
+   * The window of a drift test, for `evaluate`.
+   */
+  window?: string | null;
+  /**
+   * The feature of a QIF file, for `evaluate`.
+   */
+  feature?: string | null;
+  /**
    * The control of the programs, for `plan`.
    */
   dialect?: string | null;
@@ -13523,6 +13539,10 @@ export interface ServeSaveRequest {
    * The version that was opened; null for a new file.
    */
   version?: string | null;
+  /**
+   * Whether its folder is made where it is missing.
+   */
+  make_folder?: boolean | null;
   /**
    * The window that saves it, so that it recognises its own changes.
    */

@@ -30,7 +30,8 @@ export class FileDialog {
   readonly element: HTMLDialogElement;
   private readonly app: App;
   private stated: Stated | null = null;
-  private version: string | null = null;
+  /** The file that is shown, and its version. */
+  private opened: { path: string; version: string } | null = null;
   private typed = "";
   private form: FileForm | null = null;
   private readonly note: HTMLElement;
@@ -58,8 +59,14 @@ export class FileDialog {
     this.stated = stated;
     this.note.textContent = "";
     try {
-      const text = stated.kept ? stated.kept.text : await this.onDisk(pathOf(stated));
-      this.form = await stated.form(text);
+      const { path, kept } = stated;
+      this.opened = null;
+      // A name that the form changes is that of a new file.
+      const text = kept ? kept.text : typeof path === "string" ? await this.onDisk(path) : null;
+      const form = await stated.form(text);
+      // Another dialog was asked for meanwhile.
+      if (this.stated !== stated) return;
+      this.form = form;
       if (!this.form) {
         this.typed = text ?? "";
         this.text.show(this.typed);
@@ -73,10 +80,9 @@ export class FileDialog {
   }
 
   private async onDisk(path: string): Promise<string | null> {
-    this.version = null;
     if (!this.app.state.project?.files.some((file) => file.path === path)) return null;
     const file = await this.app.api.ask("open", { path });
-    this.version = file.version;
+    this.opened = { path, version: file.version };
     return file.text;
   }
 
@@ -129,8 +135,9 @@ export class FileDialog {
   }
 
   private async onto(path: string, text: string): Promise<void> {
-    const body = { path, text, version: this.version, window: this.app.api.window };
-    this.version = (await this.app.api.ask("save", body)).version;
+    const version = this.opened?.path === path ? this.opened.version : null;
+    const body = { path, text, version, make_folder: true, window: this.app.api.window };
+    this.opened = { path, version: (await this.app.api.ask("save", body)).version };
     await this.app.loadProject();
   }
 }

@@ -234,10 +234,19 @@ test("a laser table of a German spreadsheet: chart, conditions and verdict from 
     document.decisions.figures.map((one) => [one.figure, one.decision]),
   );
   await picture(page, "standards-tolerances");
-  // What was dropped and stated is there after a reload.
+  // What was dropped and stated is there after a reload, and listed on the first page.
   await page.reload();
   await page.waitForSelector('[data-test="decision"]');
   assert.deepEqual(await table(page, "tolerances"), judged);
+  await page.click('[data-tab="start"]');
+  await page.waitForSelector('[data-test="kept"] td');
+  const kept = await page
+    .locator('[data-test="kept"] tr td:first-child')
+    .evaluateAll((cells) => cells.map((cell) => [cell.textContent, cell.querySelector("a") !== null]));
+  assert.deepEqual(kept, [
+    ["laser.toml", false],
+    ["laser.csv", true],
+  ]);
   assert.deepEqual(complaints, []);
   await context.close();
 });

@@ -240,7 +240,7 @@ const names = roles(columns, ["up", "down"]);
 assert.deepEqual(names, ["target", "up_1", "up_2", "direction", ""]);
 assert.equal(wrongColumns(columns, names), null);
 assert.match(wrongColumns(columns, ["target", "target", "", "", ""]), /Two columns are "target"/);
-assert.match(wrongColumns([], []), /two columns/);
+assert.match(wrongColumns([], []), /at least two columns/);
 assert.equal(
   mappingText(
     "a/b.csv",

@@ -14,7 +14,7 @@ const OTHER_WORDS: &str = "monte-carlo latin-hypercube opc-ua sign-and-encrypt p
     follows-xyz four-hits four-hits-corrected gbt17421-2 head-head iso230-1 iso230-10 iso230-2 iso230-3 iso230-4 iso230-6 iso230-7 laser-angle \
     laser-line least-squares length-tracker linuxcnc-trims no-referrer no-store not-a-knot on-axis on-cone \
     over-fitted probe-ball referrer-policy ring-corrected ring-hits surface-hits z-datum z-datum-corrected same-origin sans-serif save-made set-error set-up simulation-at \
-    compensate-adapt compensate-program compensate-tables compensate-targets compensate-values measure-check measure-sheet \
+    compensate-adapt compensate-program compensate-tables compensate-targets compensate-values measure-check measure-sheet new-machine readings-columns readings-text \
     simulation-block simulation-curves simulation-path simulation-source small-angle stages-contradict table-table \
     test-piece three-axis head-table touch-probe-ball touch-probe-face turns-with-axis utf-8 what-if w-offset \
     x-content-type-options x-rot x-rot-point x-www-browser x-www-form-urlencoded \

@@ -135,6 +135,38 @@ fn law_a_machine_by_answers_is_taken_and_its_signs_are_those_of_iso_841() {
             for (a, b) in plus.iter().zip(&minus) {
                 assert!((a - b).abs() < 1e-9, "{usual:?}: {plus:?} {minus:?}");
             }
+            // Each squareness of the file changes the angle of its axes, as the workpiece sees them.
+            let text = machine_file(&usual).expect("a machine file");
+            for (angle, axes) in [("EC0", "XY"), ("EA0", "YZ"), ("EB0", "XZ")] {
+                let is_of = |line: &&str| {
+                    axes.chars().any(|axis| line.starts_with(&format!("{angle}{axis} = ")))
+                };
+                let line = text.lines().find(is_of).unwrap_or_else(|| panic!("{angle}: {text}"));
+                let name = &line[..4];
+                temporary
+                    .file("turned.toml", text.replace(line, &format!("{name} = \"100 urad\"")));
+                let way = |axis: char| {
+                    let actual = |value: f64| {
+                        let at = format!("{axis}={value}");
+                        let words = [
+                            "pose",
+                            &temporary.path("turned.toml"),
+                            "--at",
+                            &at,
+                            "--format",
+                            "json",
+                        ];
+                        let pose: serde_json::Value =
+                            serde_json::from_str(&done(&words, 0)).expect("a pose");
+                        [0, 1, 2].map(|i| pose["actual"]["tip_mm"][i].as_f64().expect("a number"))
+                    };
+                    let (from, to) = (actual(-100.0), actual(-50.0));
+                    [0, 1, 2].map(|i| (to[i] - from[i]) / 50.0)
+                };
+                let [a, b] = [0, 1].map(|i| way(axes.as_bytes()[i] as char));
+                let cosine: f64 = (0..3).map(|i| a[i] * b[i]).sum();
+                assert!((cosine.abs() - 1e-4).abs() < 1e-8, "{name} of {usual:?}: {cosine}");
+            }
             // ISO 841: seen from the workpiece the tool goes to plus, whatever carries it.
             let (zero, x) = (tip("usual.toml", "X=0"), tip("usual.toml", "X=10"));
             assert!((x[0] - zero[0] - 10.0).abs() < 1e-9, "{usual:?}");

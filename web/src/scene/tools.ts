@@ -81,10 +81,13 @@ export class SceneTools {
     details.addEventListener("toggle", () => details.open && this.draw());
     this.element = details;
     this.place.disabled = true;
+    // A picture without bodies has none of this.
+    this.element.hidden = true;
   }
 
   /** Another machine is shown. */
   clear(): void {
+    this.element.hidden = this.bodies.names.length === 0;
     this.setMeasuring(false);
     this.axis.value = "";
     this.section();
@@ -133,7 +136,10 @@ export class SceneTools {
       const p = point.clone().project(camera);
       return Math.hypot(((p.x - at.x) * box.width) / 2, ((p.y - at.y) * box.height) / 2);
     };
-    const near = corners.filter((corner) => pixels(corner) < SNAP_PX).sort((a, b) => pixels(a) - pixels(b));
+    const seen = (corner: Vector3): boolean => !this.plane || this.plane.distanceToPoint(corner) >= 0;
+    const near = corners
+      .filter((corner) => seen(corner) && pixels(corner) < SNAP_PX)
+      .sort((a, b) => pixels(a) - pixels(b));
     return { body, point: near[0] ?? hit.point };
   }
 
@@ -164,6 +170,7 @@ export class SceneTools {
   private drawLine(): void {
     this.line?.removeFromParent();
     this.line?.geometry.dispose();
+    (this.line?.material as LineBasicMaterial | undefined)?.dispose();
     this.line = null;
     const [from, to] = this.points;
     for (const [i, key] of ["from", "to"].entries()) {

@@ -30,6 +30,9 @@ const VERBS: readonly Verb[] = [
   { name: "part", title: "Verify: a measured part", file: ["measured"], needs_machine: false },
 ];
 
+/** Parameters of the address that readings are evaluated with. */
+const OF_EVALUATE = ["tolerances", "simple", "conditions", "radius", "window", "feature"] as const;
+
 type Made = ServeReport;
 
 class ReportTab implements TabHandle {
@@ -68,8 +71,8 @@ class ReportTab implements TabHandle {
   private made: Made | null = null;
   private stop = new AbortController();
   private last = "";
-  /** Tolerances of readings and how they decide, as the address states them. */
-  private judged: { tolerances: string | null; simple: string | null } = { tolerances: null, simple: null };
+  /** What else readings are evaluated with, as the address states it, for one file and one standard. */
+  private evaluated: { of: string; with: Record<string, string | null> } = { of: "", with: {} };
   private readonly stating: FileDialog;
 
   constructor(host: HTMLElement, app: App) {
@@ -118,7 +121,8 @@ class ReportTab implements TabHandle {
     this.verb.value = VERBS.some((v) => v.name === verb) ? verb : "predict";
     this.showFiles(params.file, params.machine ?? this.app.state.machine ?? undefined);
     if (params.standard) this.standard.value = params.standard;
-    this.judged = { tolerances: params.tolerances ?? null, simple: params.simple ?? null };
+    const stated = OF_EVALUATE.map((key) => [key, params[key] ?? null]);
+    this.evaluated = { of: this.readings(), with: Object.fromEntries(stated) };
     // A link that names its file asks for the report; coming back to the tab does not ask again.
     const asked = this.asked();
     if (params.file && asked !== this.last) void this.run();
@@ -132,7 +136,7 @@ class ReportTab implements TabHandle {
       this.file.value,
       this.machine.hidden ? null : this.machine.value,
       this.standard.hidden ? null : this.standard.value,
-      this.judged,
+      this.decides(),
     ]);
   }
 
@@ -194,7 +198,7 @@ class ReportTab implements TabHandle {
       file: body.file,
       machine: body.machine ?? null,
       standard: body.standard ?? null,
-      ...this.judged,
+      ...(this.evaluated.of === this.readings() ? this.evaluated.with : {}),
     });
     this.stop.abort();
     const stop = new AbortController();
@@ -212,9 +216,16 @@ class ReportTab implements TabHandle {
     }
   }
 
-  private decides(): Pick<ServeReportRequest, "tolerances" | "is_simple"> {
-    const { tolerances, simple } = this.judged;
-    return tolerances ? { tolerances: listed(tolerances), is_simple: simple === "1" } : {};
+  private readings(): string {
+    return `${this.file.value}\n${this.standard.value}`;
+  }
+
+  /** Tolerances and conditions of one test are not those of another. */
+  private decides(): Partial<ServeReportRequest> {
+    if (this.standard.hidden || this.evaluated.of !== this.readings()) return {};
+    const { tolerances, simple, ...rest } = this.evaluated.with;
+    const given = Object.fromEntries(Object.entries(rest).filter(([, value]) => value));
+    return { ...given, ...(tolerances ? { tolerances: listed(tolerances), is_simple: simple === "1" } : {}) };
   }
 
   /** A heading is stated in a form; one that is there is edited as text. */

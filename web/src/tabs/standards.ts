@@ -6,7 +6,7 @@ import { diagnosticList, split, type App, type Tab, type TabHandle } from "../ap
 import type { Params } from "../address.ts";
 import { fill, h } from "../dom.ts";
 import { FileDialog, type Stated } from "../filedialog.ts";
-import { keepFile, keptFile } from "../files.ts";
+import { keepFile, keptFile, removeFile } from "../files.ts";
 import type { Figure } from "../figure/index.ts";
 import type { Frame } from "../frame.ts";
 import { listed, NARROW_SPACE, number } from "../format.ts";
@@ -53,6 +53,9 @@ const OF_COLUMNS = [
   "unknown-word",
   "wrong-unit",
 ];
+
+/** What a report is asked with, too. */
+const OF_REPORT = ["tolerances", "simple", "conditions", "radius", "window", "feature"] as const;
 
 /** A file beside readings: `x.csv` has `x.toml` and `x.map.toml`. */
 const besideOf = (readings: string, ending: string): string => `${readings.replace(/\.[^./]*$/, "")}${ending}`;
@@ -106,14 +109,14 @@ class StandardsTab implements TabHandle {
     const { left, right } = split(host, "standards", 0.56);
     this.charts = h("div", { class: "scroll pictures" });
     left.append(this.charts);
-    this.open_file = dropOn(host, app, "Open readings …", (file) => this.take(file));
+    this.open_file = dropOn(host, app, "Open readings …", (file) => void this.take(file));
     fill(right, this.head, this.result);
   }
 
   open(params: Readonly<Record<string, string>>): void {
     const fresh = takeDropped();
     if (fresh) {
-      this.take(fresh);
+      void this.take(fresh);
       return;
     }
     // Coming back by the tab shows what was there.
@@ -123,14 +126,16 @@ class StandardsTab implements TabHandle {
 
   private async openWith(params: Params): Promise<void> {
     this.params = params;
-    if (params.path) this.dropped = null;
-    else if (params.dropped && this.dropped?.name !== params.dropped) this.dropped = await this.kept(params.dropped);
-    this.typed = { mapping: null, stated: null };
-    if (this.dropped) {
-      const { name } = this.dropped;
-      const [mapping, stated] = await Promise.all(
-        [".map.toml", ".toml"].map((ending) => this.kept(besideOf(name, ending))),
+    if (params.path) {
+      this.dropped = null;
+      this.typed = { mapping: null, stated: null };
+    } else if (params.dropped && this.dropped?.name !== params.dropped) {
+      const name = params.dropped;
+      const [dropped, mapping, stated] = await Promise.all(
+        [name, besideOf(name, ".map.toml"), besideOf(name, ".toml")].map((one) => this.kept(one)),
       );
+      if (params !== this.params) return;
+      this.dropped = dropped ?? null;
       this.typed = { mapping: mapping?.text ?? null, stated: stated?.text ?? null };
     }
     if (params === this.params) void this.run();
@@ -148,10 +153,23 @@ class StandardsTab implements TabHandle {
     if (path === this.params.path || path === this.conditions) void this.run();
   }
 
-  private take(file: TextFile): void {
+  private async take(file: TextFile): Promise<void> {
+    const folder = this.app.state.project?.folder ?? "";
+    // What was stated of another file of this name does not count for this one.
+    const before = await this.kept(file.name);
+    const same = before?.text === file.text || this.dropped?.text === file.text;
+    if (!same) {
+      this.typed = { mapping: null, stated: null };
+      for (const ending of [".map.toml", ".toml"]) await removeFile(folder, besideOf(file.name, ending));
+    } else if (this.dropped?.name !== file.name) {
+      const [mapping, stated] = await Promise.all(
+        [".map.toml", ".toml"].map((ending) => this.kept(besideOf(file.name, ending))),
+      );
+      this.typed = { mapping: mapping?.text ?? null, stated: stated?.text ?? null };
+    }
     this.dropped = file;
     this.last = "";
-    void keepFile(this.app.state.project?.folder ?? "", file);
+    void keepFile(folder, file);
     // The same name again may be another text: `go` routes again even if the address stays.
     this.app.go("standards", { dropped: file.name });
   }
@@ -263,12 +281,14 @@ class StandardsTab implements TabHandle {
       title: ["Columns of ", h("code", {}, name)],
       path: besideOf(name, ".map.toml"),
       form: async (mapping) => {
+        // A file of a person is edited as it is: a form would lose its comments.
+        if (mapping !== null && !dropped) return null;
         const from = dropped ? { text: dropped.text } : { path: name };
-        const { table, is_mapping_text } = await this.app.api.ask("readings-columns", {
-          ...from,
-          ...(mapping === null ? {} : { mapping }),
-        });
-        if (is_mapping_text) return null;
+        const asked = this.app.api.ask("readings-columns", { ...from, ...(mapping === null ? {} : { mapping }) });
+        // One that cannot be read is corrected as text.
+        const answer = await (mapping === null ? asked : asked.catch(() => null));
+        if (answer === null || answer.is_mapping_text) return null;
+        const { table } = answer;
         if (!table) throw new Refusal("no-table", `${name} has no two columns`, "Is it a table of readings?");
         return new ColumnsForm(this.app, of, known, table);
       },
@@ -279,7 +299,7 @@ class StandardsTab implements TabHandle {
 
   private async stateConditions(name: string): Promise<void> {
     const { dropped, standard } = this;
-    const path = this.conditions ?? this.params.conditions ?? besideOf(name, ".toml");
+    const path = this.params.conditions ?? this.conditions ?? besideOf(name, ".toml");
     await this.stating.open({
       title: ["Conditions of ", h("code", {}, name)],
       path,
@@ -313,6 +333,7 @@ class StandardsTab implements TabHandle {
     for (const one of this.figures) one.dispose();
     this.figures = [];
     this.shown = false;
+    this.conditions = null;
     fill(
       this.charts,
       h("p", { class: "empty" }, "The charts stand here. Drop a CSV of readings anywhere on this page."),
@@ -330,7 +351,8 @@ class StandardsTab implements TabHandle {
       {
         ariaLabel: "Standard",
         dataTest: "standard",
-        onchange: () => this.choose({ standard: choice.value, radius: null, window: null }),
+        onchange: () =>
+          this.choose({ standard: choice.value, radius: null, window: null, tolerances: null, simple: null }),
       },
       this.standards.map((one) => h("option", { value: one.key }, one.title)),
     );
@@ -352,6 +374,8 @@ class StandardsTab implements TabHandle {
           window: null,
           conditions: null,
           feature: null,
+          tolerances: null,
+          simple: null,
         }),
     );
     const beside = h(
@@ -389,10 +413,9 @@ class StandardsTab implements TabHandle {
           verb: "evaluate",
           file: now,
           standard,
-          tolerances: this.params.tolerances,
-          simple: this.params.simple,
+          ...Object.fromEntries(OF_REPORT.map((key) => [key, this.params[key] ?? null])),
         }),
-        this.dropped
+        this.dropped && isTable
           ? h(
               "button",
               {

@@ -170,15 +170,18 @@ async function showKept(app: App, place: HTMLElement): Promise<void> {
   const files = await keptFiles(folder);
   place.hidden = files.length === 0;
   const row = ({ name, bytes: size }: (typeof files)[number]): HTMLElement => {
-    const tab = ENDINGS.find(([ending]) => ending.test(name))?.[1] ?? "simulate";
+    // What was stated of readings goes with them.
+    const tab = ENDINGS.find(([ending]) => ending.test(name))?.[1] ?? (/\.toml$/i.test(name) ? null : "simulate");
     const remove = async (): Promise<void> => {
       await removeFile(folder, name);
+      // What was stated of readings goes with them.
+      if (tab) for (const ending of [".map.toml", ".toml"]) await removeFile(folder, name.replace(/\.[^.]*$/, ending));
       await showKept(app, place);
     };
     return h(
       "tr",
       {},
-      h("td", {}, h("a", { href: hashOf(tab, { dropped: name }) }, name)),
+      h("td", {}, tab ? h("a", { href: hashOf(tab, { dropped: name }) }, name) : name),
       h("td", { class: "number muted" }, bytes(size)),
       h(
         "td",

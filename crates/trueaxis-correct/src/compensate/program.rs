@@ -41,6 +41,7 @@ pub use verify::{BlockResidual, Largest, Proof, Residual};
 use ahead::{Gather, Stretches};
 use line_table::LineTable;
 use std::ops::Range;
+use std::sync::Mutex;
 use trueaxis_input::{Diagnostic, Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_motion::Densify;
@@ -172,8 +173,7 @@ pub fn compensate_program(
     compensate_program_with(machine, program, setup, options, &|_| {})
 }
 
-/// The same, and says how far it is: by the lines that are corrected in the first try; its proof and further tries
-/// follow.
+/// The same, and says how far it is, by the lines that are corrected in the first try.
 pub fn compensate_program_with(
     machine: &Machine,
     program: &Program,
@@ -181,7 +181,16 @@ pub fn compensate_program_with(
     options: &ProgramOptions,
     progress: Progress<'_>,
 ) -> (Option<Rewritten>, Diagnostics) {
-    let task = (options, progress);
+    // A program that is unrolled is walked again: the part that is done does not go back.
+    let most = Mutex::new(0.0);
+    let grows = |part: f64| {
+        let Ok(mut most) = most.lock() else { return };
+        if part > *most {
+            *most = part;
+            progress(part);
+        }
+    };
+    let task: Task<'_> = (options, &grows);
     let mut problems = Diagnostics::new();
     if is_compensated(program.source()) {
         let message = "the program is compensated already, its heading says so".to_owned();

@@ -153,7 +153,9 @@ fn best_separator(all: &[(usize, &str)]) -> Option<char> {
 
 /// Digits with signs of any notation.
 fn is_number(cell: &str) -> bool {
-    let of_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | ',' | '+' | '-' | 'e' | 'E');
+    // Real minus signs, gaps and apostrophes of thousands, too.
+    let of_number =
+        |c: char| c.is_ascii_digit() || ".,+-eE\u{2212}'\u{2019} \u{a0}\u{202f}".contains(c);
     cell.chars().any(|c| c.is_ascii_digit()) && cell.chars().all(of_number)
 }
 
@@ -277,6 +279,12 @@ mod tests {
             );
             assert_eq!(found.columns[0].values, ["1,5", "2,5"]);
         }
+    }
+
+    #[test]
+    fn a_reading_with_real_minus_signs_and_gaps_is_one() {
+        let found = plain("Pos;F1;F2\n0;−0,5;−0,4\n1\u{202f}000;0,5;0,4\n");
+        assert_eq!((found.rows_below_headings, found.readings), (0, 2));
     }
 
     #[test]

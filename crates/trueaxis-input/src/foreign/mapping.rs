@@ -118,13 +118,14 @@ impl Mapping {
         }
     }
 
-    /// Whether it names columns of one table and no more: one block to a mark, no constants, equal steps, encoding.
+    /// Whether it names columns of one table and no more: one block to a mark, no constants, equal steps, encoding, thousands.
     pub fn is_plain(&self) -> bool {
         let [block] = &self.blocks[..] else { return false };
         let named = |column: &Mapped| !matches!(column.source, Source::Steps { .. });
         let until = block.until.clone();
         let whole = Block { skip_rows: block.skip_rows, until, ..Block::default() };
-        *block == whole && self.encoding.is_none() && self.columns.iter().all(named)
+        let plain = self.encoding.is_none() && self.thousands.is_none();
+        *block == whole && plain && self.columns.iter().all(named)
     }
 
     /// What the line after the last reading of its first block begins with.

@@ -72,31 +72,31 @@ impl Request for StandardsRequest {
 #[serde(deny_unknown_fields)]
 pub(super) struct EvaluateRequest {
     /// The standard, such as `iso230-2`.
-    standard: String,
+    pub(super) standard: String,
     /// The file of the readings.
-    path: Option<String>,
+    pub(super) path: Option<String>,
     /// The name of a file that was dropped.
-    name: Option<String>,
+    pub(super) name: Option<String>,
     /// Its text.
-    text: Option<String>,
+    pub(super) text: Option<String>,
     /// The format of the file; by its ending if it is left out.
-    import: Option<String>,
+    pub(super) import: Option<String>,
     /// The feature of a QIF file.
-    feature: Option<String>,
+    pub(super) feature: Option<String>,
     /// The file of the conditions; the one beside the readings if it is left out.
-    conditions: Option<String>,
+    pub(super) conditions: Option<String>,
     /// The radius of a circular test, a length with its unit.
-    radius: Option<String>,
+    pub(super) radius: Option<String>,
     /// The window of a drift test, a time with its unit.
-    window: Option<String>,
+    pub(super) window: Option<String>,
     /// The text of a mapping file that counts instead of the one beside the readings.
-    mapping: Option<String>,
+    pub(super) mapping: Option<String>,
     /// The text of conditions that count instead of those of a file.
-    stated: Option<String>,
+    pub(super) stated: Option<String>,
     /// Tolerances, such as `A=10 um`.
-    tolerances: Option<Vec<String>>,
+    pub(super) tolerances: Option<Vec<String>>,
     /// Whether a value alone decides, without its uncertainty.
-    is_simple: Option<bool>,
+    pub(super) is_simple: Option<bool>,
 }
 
 /// An evaluation. Arrays: `line` (f64: x, y and half the width of the band for each point of the bands), `points`
@@ -199,11 +199,6 @@ impl EvaluateRequest {
     /// The readings of a file.
     pub(super) fn of(standard: String, path: String) -> Self {
         Self { standard, path: Some(path), ..Self::default() }
-    }
-
-    /// The same against tolerances.
-    pub(super) fn judged(self, tolerances: Option<Vec<String>>, is_simple: Option<bool>) -> Self {
-        Self { tolerances, is_simple, ..self }
     }
 
     /// As the library is asked, and the files that it reads: those of the disk, and what was typed on the page.

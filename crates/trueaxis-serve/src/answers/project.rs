@@ -90,6 +90,8 @@ pub(super) struct SaveRequest {
     text: String,
     /// The version that was opened; null for a new file.
     version: Option<String>,
+    /// Whether its folder is made where it is missing.
+    make_folder: Option<bool>,
     /// The window that saves it, so that it recognises its own changes.
     window: Option<String>,
 }
@@ -124,7 +126,11 @@ impl Request for SaveRequest {
             };
             return Err(Refusal::new(409, "conflict", message, hint));
         }
-        files::write_with_folder(&path, text).map_err(|e| {
+        let written = match self.make_folder.unwrap_or_default() {
+            true => files::write_with_folder(&path, text),
+            false => files::write(&path, text),
+        };
+        written.map_err(|e| {
             Refusal::new(422, "unwritable-file", format!("{name} cannot be written: {e}"), "")
         })?;
         let version = version(text);

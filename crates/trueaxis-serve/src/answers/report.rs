@@ -35,6 +35,14 @@ pub(super) struct ReportRequest {
     tolerances: Option<Vec<String>>,
     /// Whether a value alone decides, without its uncertainty, for `evaluate`.
     is_simple: Option<bool>,
+    /// The file of the conditions, for `evaluate`.
+    conditions: Option<String>,
+    /// The radius of a circular test, for `evaluate`.
+    radius: Option<String>,
+    /// The window of a drift test, for `evaluate`.
+    window: Option<String>,
+    /// The feature of a QIF file, for `evaluate`.
+    feature: Option<String>,
     /// The control of the programs, for `plan`.
     dialect: Option<String>,
     /// The file of its heading, to be filed and signed.
@@ -161,9 +169,16 @@ impl ReportRequest {
             }
             Verb::Evaluate => {
                 let standard = needed(self.standard, "standard")?;
-                let request = EvaluateRequest::of(standard, self.file);
-                let (question, _) =
-                    request.judged(self.tolerances, self.is_simple).question(desk)?;
+                let request = EvaluateRequest {
+                    conditions: self.conditions,
+                    radius: self.radius,
+                    window: self.window,
+                    feature: self.feature,
+                    tolerances: self.tolerances,
+                    is_simple: self.is_simple,
+                    ..EvaluateRequest::of(standard, self.file)
+                };
+                let (question, _) = request.question(desk)?;
                 made(&question, job, heading)
             }
             Verb::Verify => made(&VerifyReadings { file }, job, heading),

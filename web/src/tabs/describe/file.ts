@@ -13,7 +13,7 @@ export class FileText {
     spellcheck: "false",
     autocomplete: "off",
     wrap: "off",
-    ariaLabel: "Text of the machine file",
+    ariaLabel: "Text of the file",
   });
   private readonly gutter = h("div", { class: "file-gutter", ariaHidden: "true" });
   private readonly problems = h("ul", { class: "diagnostics file-problems", ariaLive: "polite" });

@@ -132,7 +132,7 @@ export class DescribeTab implements TabHandle {
   private pick(body: string): void {
     this.view.highlight(body);
     if (!this.errors.showBody(body)) {
-      this.app.say(`${body === "b" ? "The bed" : body} has no errors: it is what the others are measured against.`);
+      this.app.say(body === "b" ? "The bed has no errors: the others are relative to it." : `${body} has no errors.`);
       return;
     }
     this.pages.go("errors");

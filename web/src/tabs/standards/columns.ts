@@ -67,7 +67,15 @@ export class ColumnsForm implements FileForm {
   private choices: Choice[] = [];
   private decimal = "";
   private until = "";
-  private readonly wrong = h("p", { class: "columns-wrong", dataTest: "columns-wrong" });
+  /** The line of headings that was typed. */
+  private heading: number | null = null;
+  private asked = 0;
+  private readonly wrong = h("p", {
+    class: "columns-wrong",
+    role: "status",
+    tabindex: "-1",
+    dataTest: "columns-wrong",
+  });
 
   constructor(app: App, of: ReadingsOf, known: readonly Column[], table: Table) {
     this.app = app;
@@ -94,6 +102,8 @@ export class ColumnsForm implements FileForm {
       columns: choices.map((choice) => ({
         ...choice,
         unit: this.unitsOf(choice.role).length > 0 ? choice.unit || "?" : "",
+        // The sign of a number without a unit stays.
+        negate: this.unitsOf(choice.role).length > 0 && choice.negate,
         words: this.hasWords(choice.role) ? choice.words : [],
       })),
     };
@@ -138,11 +148,15 @@ export class ColumnsForm implements FileForm {
   }
 
   /** Another separator or another line of headings: its columns are found again. */
-  private async again(separator: string, heading_line: number): Promise<void> {
+  private async again(separator: string, heading_line: number | null): Promise<void> {
     const { path, text } = this.of;
+    const asked = ++this.asked;
     try {
       const from = path ? { path } : { text };
-      const answer = await this.app.api.ask("readings-columns", { ...from, separator, heading_line });
+      const line = heading_line === null ? {} : { heading_line };
+      const answer = await this.app.api.ask("readings-columns", { ...from, separator, ...line });
+      // Only the last choice counts.
+      if (asked !== this.asked) return;
       if (answer.table) this.take(answer.table);
       else this.say("No two columns are found that way.");
     } catch (error) {
@@ -166,7 +180,7 @@ export class ColumnsForm implements FileForm {
       "Separator of the columns",
       SEPARATORS,
       table.separator,
-      (value) => void this.again(value, table.heading_line ?? 0),
+      (value) => void this.again(value, this.heading),
     );
     const decimal = select("Decimal sign", DECIMALS, this.decimal, (value) => (this.decimal = value));
     const heading = h("input", {
@@ -175,7 +189,19 @@ export class ColumnsForm implements FileForm {
       size: "5",
       value: String(table.heading_line ?? 0),
       ariaLabel: "Line of the headings; 0 where there are none",
-      onchange: () => void this.again(table.separator, Number(heading.value)),
+      onchange: () => {
+        this.heading = Number(heading.value);
+        void this.again(table.separator, this.heading);
+      },
+    });
+    const below = h("input", {
+      type: "number",
+      min: "0",
+      size: "4",
+      value: String(table.rows_below_headings),
+      dataField: "below",
+      ariaLabel: "Rows between the headings and the first reading",
+      oninput: () => (this.table = { ...this.table, rows_below_headings: Math.max(0, Number(below.value) || 0) }),
     });
     const until = h("input", {
       type: "text",
@@ -192,6 +218,7 @@ export class ColumnsForm implements FileForm {
         labelled("Between columns", separator),
         labelled("Decimal sign", decimal),
         labelled("Headings in line (0: none)", heading),
+        labelled("Rows between headings and readings", below),
         labelled("Readings end before the line that begins with", until),
       ),
       h("p", { class: "muted" }, `${table.readings} rows of readings below line ${table.first_line}.`),

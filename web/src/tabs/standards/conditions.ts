@@ -43,7 +43,7 @@ const CIRCLE: Group = {
     field("circle", "feed", "Feed", "1000 mm/min"),
     field("circle", "length_u", "Standard uncertainty of a calibrated ball-bar", "0.5 um"),
     field("circle", "pitch_first", "Pitch of the screw or scale of the first axis", "10 mm"),
-    field("circle", "pitch_second", "Of the second axis", "10 mm"),
+    field("circle", "pitch_second", "Pitch of that of the second axis", "10 mm"),
   ],
 };
 

@@ -1,6 +1,7 @@
 /** A dropped file of readings as files of the project, with what was stated of it. */
 
 import type { App } from "../../app.ts";
+import { Refusal } from "../../api.ts";
 import { FileDialog, type FileForm } from "../../filedialog.ts";
 import { h } from "../../dom.ts";
 import type { TextFile } from "../measure/drop.ts";
@@ -28,7 +29,7 @@ export function keepInProject(
     text: () => path,
   };
   const save = (name: string, text: string): Promise<unknown> =>
-    app.api.ask("save", { path: name, text, version: null, window: app.api.window });
+    app.api.ask("save", { path: name, text, version: null, make_folder: true, window: app.api.window });
   return new Promise((resolve) => {
     let done: string | null = null;
     dialog.element.addEventListener("close", () => {
@@ -44,8 +45,16 @@ export function keepInProject(
         where: "with the columns and conditions that were stated; nothing is replaced",
         keep: async () => {
           const beside = path.replace(/\.csv$/i, "");
+          // All or nothing: a file of this name beside the readings would count for them.
+          for (const ending of [".csv", ".map.toml", ".toml"]) {
+            const name = ending === ".csv" ? path : `${beside}${ending}`;
+            if (await isThere(app, name))
+              throw new Refusal("conflict", `${name} is there already`, "save under another name: nothing is replaced");
+          }
+          // The readings are saved as UTF-8, whatever they were.
+          const mapping = stated.mapping?.replace(/^encoding\s*=.*$/m, "") ?? null;
           // The readings come last: an interrupted save leaves no table without its columns.
-          if (stated.mapping !== null) await save(`${beside}.map.toml`, stated.mapping);
+          if (mapping !== null) await save(`${beside}.map.toml`, mapping);
           if (stated.stated !== null) await save(`${beside}.toml`, stated.stated);
           await save(path, readings.text);
           await app.loadProject();
@@ -55,6 +64,16 @@ export function keepInProject(
       saved: () => undefined,
     });
   });
+}
+
+async function isThere(app: App, path: string): Promise<boolean> {
+  try {
+    await app.api.ask("open", { path });
+    return true;
+  } catch (error) {
+    if (error instanceof Refusal && error.code === "unreadable-file") return false;
+    throw error;
+  }
 }
 
 function nameBox(value: string, take: (typed: string) => void): HTMLInputElement {

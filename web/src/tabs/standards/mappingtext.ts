@@ -42,7 +42,7 @@ export function roles(columns: readonly MappedColumn[], numbered: readonly strin
 /** What is wrong with the choice; null if nothing is. */
 export function wrongColumns(columns: readonly MappedColumn[], names: readonly string[]): string | null {
   const used = names.filter((name) => name !== "");
-  if (used.length < 2) return "Say of two columns at least what they are.";
+  if (used.length < 2) return "State the meaning of at least two columns.";
   const twice = used.find((name, i) => used.indexOf(name) !== i);
   if (twice) return `Two columns are "${twice}": leave one of them.`;
   const bare = columns.find((column) => column.role !== "" && column.unit === "?");

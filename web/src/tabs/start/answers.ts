@@ -20,7 +20,9 @@ export interface MachineAnswers {
   axes: Record<string, AxisAnswer>;
 }
 
-const numberOf = (typed: string): number => Number(typed.trim().replace(",", ".") || "x");
+/** A decimal comma counts as a point; 1,000 may be one or a thousand, and is none. */
+const numberOf = (typed: string): number =>
+  /^[+-]?[1-9]\d{0,2},\d{3}$/.test(typed.trim()) ? Number.NaN : Number(typed.trim().replace(",", ".") || "x");
 
 /** What is wrong with the answers; null if nothing is. */
 export function wrongAnswers(answers: MachineAnswers, axes: readonly string[]): string | null {

@@ -132,7 +132,12 @@ class Questions implements FileForm {
   private kind = KINDS[1] as Kind;
   readonly answers: MachineAnswers;
   private readonly more = h("div", {});
-  private readonly wrong = h("p", { class: "columns-wrong", role: "status", dataTest: "new-machine-wrong" });
+  private readonly wrong = h("p", {
+    class: "columns-wrong",
+    role: "status",
+    tabindex: "-1",
+    dataTest: "new-machine-wrong",
+  });
 
   constructor(app: App) {
     this.app = app;
@@ -201,6 +206,9 @@ class Questions implements FileForm {
   private choose(kind: Kind): void {
     this.kind = kind;
     Object.assign(this.answers, { kind: kind.key, tilting: kind.tilting, workpiece: [...kind.workpiece] });
+    // The cables of a fork head wind up.
+    const { C } = this.answers.axes;
+    if (C) C.unlimited = kind.key !== "head-head";
     this.draw();
   }
 
@@ -243,15 +251,7 @@ class Questions implements FileForm {
           { class: "file-dialog-fields" },
           text("Name of the machine", answers.name, (typed) => (answers.name = typed), "28", "name"),
           this.tilting(),
-          text(
-            this.kind.tilting && this.kind.table.includes("tilting")
-              ? "Gauge line above the rotary axes at Z = 0, mm"
-              : "Reference line of Z above the table at Z = 0, mm",
-            answers.height,
-            (typed) => (answers.height = typed),
-            "10",
-            "height",
-          ),
+          text(this.heightLabel(), answers.height, (typed) => (answers.height = typed), "10", "height"),
           this.carried(),
         ),
       ),
@@ -267,11 +267,20 @@ class Questions implements FileForm {
         h(
           "p",
           { class: "muted" },
-          "Signs: jog each axis to plus and look from the workpiece. By ISO 841 the tool moves to plus; a table that carries the workpiece therefore moves to minus, and a rotary table turns clockwise, seen from above.",
+          "Signs: jog each axis to plus and look at the machine. By ISO 841 the tool moves to plus as seen from the workpiece; a table that carries the workpiece therefore moves to minus, and a rotary table turns clockwise, seen from above.",
         ),
       ),
     );
     this.check();
+  }
+
+  /** What the template measures Z from. */
+  private heightLabel(): string {
+    const { tilting } = this.answers;
+    if (!tilting) return "Spindle gauge line above the table at Z = 0, mm";
+    return this.kind.table.includes("tilting")
+      ? `Spindle gauge line above the place where ${tilting} and C meet at Z = 0, mm`
+      : `Axis of ${tilting} above the table at Z = 0, mm`;
   }
 
   private tilting(): HTMLElement | null {
@@ -364,7 +373,7 @@ class Questions implements FileForm {
       { class: "machine-axis" },
       h("strong", {}, name),
       h("span", {}, ends[0], " to ", ends[1], is_rotary ? " deg" : " mm"),
-      h("span", {}, is_rotary ? h("label", {}, around, " all around") : null),
+      h("span", {}, is_rotary ? h("label", {}, around, " unlimited") : null),
       h("label", {}, h("span", { class: "muted" }, `+${name}: `), sign),
     );
   }
