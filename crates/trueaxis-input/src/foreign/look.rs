@@ -153,9 +153,9 @@ fn best_separator(all: &[(usize, &str)]) -> Option<char> {
 
 /// Digits with signs of any notation.
 fn is_number(cell: &str) -> bool {
-    // Real minus signs, gaps and apostrophes of thousands, too.
+    // Real minus signs, fixed gaps and apostrophes of thousands, too; a plain space may separate columns.
     let of_number =
-        |c: char| c.is_ascii_digit() || ".,+-eE\u{2212}'\u{2019} \u{a0}\u{202f}".contains(c);
+        |c: char| c.is_ascii_digit() || ".,+-eE\u{2212}'\u{2019}\u{a0}\u{202f}".contains(c);
     cell.chars().any(|c| c.is_ascii_digit()) && cell.chars().all(of_number)
 }
 
