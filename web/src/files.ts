@@ -3,6 +3,8 @@
 export interface TextFile {
   name: string;
   text: string;
+  /** Its encoding, where nothing in the file proves it. */
+  encoding?: string;
 }
 
 export interface KeptFile {
@@ -54,10 +56,10 @@ const rows = async (folder: string): Promise<Row[]> => {
 };
 
 /** A browser that keeps nothing (a private window) is no failure: the file is there until the page is closed. */
-export async function keepFile(folder: string, { name, text }: TextFile): Promise<void> {
+export async function keepFile(folder: string, file: TextFile): Promise<void> {
   try {
-    const key = `${folder}\n${name}`;
-    const row: Row = { key, folder, name, text, bytes: new Blob([text]).size, at_ms: Date.now() };
+    const key = `${folder}\n${file.name}`;
+    const row: Row = { ...file, key, folder, bytes: new Blob([file.text]).size, at_ms: Date.now() };
     if (row.bytes > MOST_BYTES) return;
     await ask("readwrite", (store) => store.put(row));
     let sum = 0;
@@ -73,7 +75,9 @@ export async function keepFile(folder: string, { name, text }: TextFile): Promis
 export async function keptFile(folder: string, name: string): Promise<TextFile | null> {
   try {
     const row = (await ask("readonly", (store) => store.get(`${folder}\n${name}`))) as Row | undefined;
-    return row ? { name: row.name, text: row.text } : null;
+    if (!row) return null;
+    const { text, encoding } = row;
+    return { name, text, ...(encoding ? { encoding } : {}) };
   } catch {
     return null;
   }

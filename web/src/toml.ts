@@ -15,7 +15,21 @@ export interface Field {
   pattern?: readonly [RegExp, string];
 }
 
-export const DATE: Required<Field>["pattern"] = [/^\d{4}-\d{2}-\d{2}$/, "a date is written 2026-11-28"];
+const DATE: Required<Field>["pattern"] = [/^\d{4}-\d{2}-\d{2}$/, "a date is written 2026-11-28"];
+
+/** A field of text. */
+export const field = (section: string, key: string, label: string, example: string): Field => ({
+  section,
+  key,
+  label,
+  example,
+});
+
+export const date = (section: string, key: string, label: string): Field => ({
+  ...field(section, key, label, "2026-11-28"),
+  kind: "date",
+  pattern: DATE,
+});
 
 export const quoted = (text: string): string => JSON.stringify(text);
 

@@ -238,6 +238,7 @@ test("a laser table of a German spreadsheet: chart, conditions and verdict from 
   await page.reload();
   await page.waitForSelector('[data-test="decision"]');
   assert.deepEqual(await table(page, "tolerances"), judged);
+  assert.match(await page.textContent('#tab-standards [data-test="conditions"]'), /Read as windows-1252/);
   await page.click('[data-tab="start"]');
   await page.waitForSelector('[data-test="kept"] td');
   const kept = await page

@@ -7,6 +7,7 @@ import { download, fill, h } from "../dom.ts";
 import { FileDialog } from "../filedialog.ts";
 import { bytes, listed } from "../format.ts";
 import { headingForm } from "./report/heading.ts";
+import { STATED } from "./standards/documents.ts";
 
 interface Verb {
   name: ServeReportRequest["verb"];
@@ -29,9 +30,6 @@ const VERBS: readonly Verb[] = [
   { name: "laser", title: "Verify: a laser before and after", file: ["campaign"], needs_machine: false },
   { name: "part", title: "Verify: a measured part", file: ["measured"], needs_machine: false },
 ];
-
-/** Parameters of the address that readings are evaluated with. */
-const OF_EVALUATE = ["tolerances", "simple", "conditions", "radius", "window", "feature"] as const;
 
 type Made = ServeReport;
 
@@ -121,7 +119,7 @@ class ReportTab implements TabHandle {
     this.verb.value = VERBS.some((v) => v.name === verb) ? verb : "predict";
     this.showFiles(params.file, params.machine ?? this.app.state.machine ?? undefined);
     if (params.standard) this.standard.value = params.standard;
-    const stated = OF_EVALUATE.map((key) => [key, params[key] ?? null]);
+    const stated = STATED.map((key) => [key, params[key] ?? null]);
     this.evaluated = { of: this.readings(), with: Object.fromEntries(stated) };
     // A link that names its file asks for the report; coming back to the tab does not ask again.
     const asked = this.asked();

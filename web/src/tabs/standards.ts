@@ -15,7 +15,7 @@ import { dropOn, type TextFile } from "./measure/drop.ts";
 import { sheetTable } from "./measure/table.ts";
 import { ColumnsForm } from "./standards/columns.ts";
 import { conditionsForm } from "./standards/conditions.ts";
-import { as, kindOf, type Circular, type EvaluateDocument } from "./standards/documents.ts";
+import { as, kindOf, STATED, type Circular, type EvaluateDocument } from "./standards/documents.ts";
 import { drawPictures } from "./standards/pictures.ts";
 import { keepInProject } from "./standards/keep.ts";
 import { sheetsOf, tilesOf } from "./standards/tables.ts";
@@ -53,9 +53,6 @@ const OF_COLUMNS = [
   "unknown-word",
   "wrong-unit",
 ];
-
-/** What a report is asked with, too. */
-const OF_REPORT = ["tolerances", "simple", "conditions", "radius", "window", "feature"] as const;
 
 /** A file beside readings: `x.csv` has `x.toml` and `x.map.toml`. */
 const besideOf = (readings: string, ending: string): string => `${readings.replace(/\.[^./]*$/, "")}${ending}`;
@@ -413,7 +410,7 @@ class StandardsTab implements TabHandle {
           verb: "evaluate",
           file: now,
           standard,
-          ...Object.fromEntries(OF_REPORT.map((key) => [key, this.params[key] ?? null])),
+          ...Object.fromEntries(STATED.map((key) => [key, this.params[key] ?? null])),
         }),
         this.dropped && isTable
           ? h(

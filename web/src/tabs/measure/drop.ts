@@ -3,14 +3,10 @@
 import type { App } from "../../app.ts";
 import { Refusal } from "../../api.ts";
 import { h } from "../../dom.ts";
+import type { TextFile } from "../../files.ts";
 import { bytes } from "../../format.ts";
 
-export interface TextFile {
-  name: string;
-  text: string;
-  /** Its encoding, where nothing in the file proves it. */
-  encoding?: string;
-}
+export type { TextFile };
 
 /** Readings are tables of a few thousand rows; what is larger than this is something else. */
 const MOST_BYTES = 32e6;

@@ -2,19 +2,7 @@
 
 import type { FileForm } from "../../filedialog.ts";
 import { fieldsForm, type Group } from "../../fieldsform.ts";
-import { DATE, type Field } from "../../toml.ts";
-
-const field = (section: string, key: string, label: string, example: string): Field => ({
-  section,
-  key,
-  label,
-  example,
-});
-const date = (section: string, key: string, label: string): Field => ({
-  ...field(section, key, label, "2026-11-28"),
-  kind: "date",
-  pattern: DATE,
-});
+import { date, field } from "../../toml.ts";
 
 const GROUPS: readonly Group[] = [
   {

@@ -2,14 +2,7 @@
 
 import type { FileForm } from "../../filedialog.ts";
 import { fieldsForm, type Group } from "../../fieldsform.ts";
-import { DATE, type Field } from "../../toml.ts";
-
-const field = (section: string, key: string, label: string, example: string): Field => ({
-  section,
-  key,
-  label,
-  example,
-});
+import { date, field } from "../../toml.ts";
 
 const TEST: Group = {
   title: "Test",
@@ -18,7 +11,7 @@ const TEST: Group = {
     field("", "machine", "Machine, serial number", "gantry in hall 3, XK-0815"),
     field("", "axis", "Axis", "X"),
     field("", "instrument", "Instrument, serial number", "laser interferometer L-77"),
-    { ...field("", "date", "Date", "2026-11-28"), kind: "date", pattern: DATE },
+    date("", "date", "Date"),
     field("", "temperature", "Temperature of the machine", "21.9 ± 0.2 degC"),
   ],
 };

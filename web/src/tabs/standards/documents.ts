@@ -78,3 +78,6 @@ export function kindOf(document: EvaluateDocument): Kind {
 }
 
 export const as = <T>(document: EvaluateDocument): T => document as unknown as T;
+
+/** Parameters of the address that readings are evaluated with, besides file and standard. */
+export const STATED = ["tolerances", "simple", "conditions", "radius", "window", "feature"] as const;
