@@ -59,8 +59,7 @@ export async function serve(folder = root, options = ["--no-token"]) {
 }
 
 /** Starts the browser, with software rendering. */
-export async function browse() {
-  if (!existsSync(browserPath)) throw new Error(`${browserPath} is not there: install chromium, or set CHROMIUM`);
+async function start() {
   return chromium.launch({
     executablePath: browserPath,
     args: [
@@ -76,6 +75,19 @@ export async function browse() {
       "--disable-sync",
     ],
   });
+}
+
+/** A browser. Chromium sometimes ends while it starts: said, tried three times. */
+export async function browse() {
+  if (!existsSync(browserPath)) throw new Error(`${browserPath} is not there: install chromium, or set CHROMIUM`);
+  for (let attempt = 1; ; attempt += 1) {
+    try {
+      return await start();
+    } catch (error) {
+      if (attempt === 3) throw error;
+      console.log(`# Chromium did not start, tried again: ${error.message.split("\n", 1)[0]}`);
+    }
+  }
 }
 
 /**
