@@ -610,6 +610,7 @@ export type FileKind =
   | "certificate"
   | "measured"
   | "blank"
+  | "rtcp"
   | "heading"
   | "other";
 /**
@@ -626,7 +627,11 @@ export type Verb =
   | "history"
   | "certificate"
   | "laser"
-  | "part";
+  | "part"
+  | "compensate-program"
+  | "compensate-tables"
+  | "compensate-adapt"
+  | "rtcp";
 /**
  * An issue over a stretch of the path.
  */
@@ -13459,9 +13464,19 @@ export interface ServeReportRequest {
    */
   dialect?: string | null;
   /**
+   * What else is asked, by the names of the requests `compensate-program`, `compensate-tables` and `compensate-adapt`.
+   */
+  options?: {
+    [k: string]: unknown;
+  } | null;
+  /**
    * The file of its heading, to be filed and signed.
    */
   heading?: string | null;
+  /**
+   * Its language: `en`, `de` or `zh`; `en` where it is not stated.
+   */
+  language?: string | null;
 }
 /**
  * A report that was made.

@@ -50,6 +50,11 @@ fn built_page(out: &Path) -> Result<PathBuf, String> {
     for source in SOURCES {
         println!("cargo::rerun-if-changed={}", web.join(source).display());
     }
+    // What the page says of the server's answers stands in the dictionaries of its reports.
+    for language in ["de", "zh"] {
+        let folder = manifest.join("../trueaxis-words/src").join(language);
+        println!("cargo::rerun-if-changed={}", folder.display());
+    }
     let page = out.join("page");
     // Two builds at a time (two target folders) would install into one folder.
     let lock = File::create(web.join(".installing")).and_then(|file| file.lock().map(|()| file));

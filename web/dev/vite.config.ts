@@ -12,5 +12,5 @@ const answered = {
 
 export default defineConfig({
   root: new URL("..", import.meta.url).pathname,
-  server: { proxy: { "/api": answered, "/report": answered, "/made": answered } },
+  server: { fs: { allow: [".."] }, proxy: { "/api": answered, "/report": answered, "/made": answered } },
 });

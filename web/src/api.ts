@@ -1,5 +1,6 @@
 /** The server's answers, typed, over one WebSocket that reconnects by itself. */
 
+import { tr } from "./words/index.ts";
 import type {
   CheckDocument,
   DiagnosticEntry,
@@ -109,7 +110,7 @@ type RefusalDocument = Partial<ServeRefused["error"]>;
 function refusal(doc: RefusalDocument | undefined): Refusal {
   return new Refusal(
     doc?.code ?? "unknown",
-    doc?.message ?? "the server refused",
+    doc?.message ?? tr`the server refused`,
     doc?.hint ?? "",
     doc?.diagnostics ?? [],
   );
@@ -207,8 +208,8 @@ export class Api {
       socket.onclose = () => {
         const lost = new Refusal(
           "connection",
-          "no connection to TrueAxis",
-          "Is `trueaxis serve` still running? The page reconnects by itself.",
+          tr`no connection to TrueAxis`,
+          tr`Is \`trueaxis serve\` still running? The page reconnects by itself.`,
         );
         reject(lost);
         if (this.socket === socket || this.socket === null) this.lose(lost);

@@ -7,7 +7,7 @@ import { withErrorNames } from "./glossary/glossary.ts";
 import { keysButton } from "./keys.ts";
 import { TABS } from "./tabs/index.ts";
 import { chooseTheme, themeChoice, type ThemeChoice } from "./theme.ts";
-import { chooseLanguage, language, languages, words } from "./words/index.ts";
+import { chooseLanguage, codeWords, language, languages, severityWord, tr } from "./words/index.ts";
 
 export interface TabHandle {
   /** The tab is shown with these parameters of the address (`machine=…&program=…`). */
@@ -59,8 +59,8 @@ export class App {
   /** How often the address has changed. */
   private turns = 0;
   private readonly bar = h("header", { class: "bar" });
-  private readonly main = h("main", { class: "main", id: "main", tabindex: "-1", lang: "en" });
-  private readonly tabs = h("nav", { class: "tabs", role: "tablist", ariaLabel: words.verbs });
+  private readonly main = h("main", { class: "main", id: "main", tabindex: "-1" });
+  private readonly tabs = h("nav", { class: "tabs", role: "tablist", ariaLabel: tr`Verbs` });
   private readonly folder = h("span", { class: "folder" });
   private readonly unsaved_link = h("a", { class: "unsaved", dataTest: "unsaved", hidden: true });
   private readonly note = h("span", { class: "status-note", role: "status" });
@@ -70,9 +70,9 @@ export class App {
     max: "1",
     value: 0,
     hidden: true,
-    ariaLabel: words.progress,
+    ariaLabel: tr`Progress`,
   });
-  private readonly toasts = h("div", { class: "toasts", ariaLive: "polite", lang: "en" });
+  private readonly toasts = h("div", { class: "toasts", ariaLive: "polite" });
 
   constructor(root: HTMLElement) {
     this.buildBar();
@@ -141,7 +141,7 @@ export class App {
     const own = from === this.api.window;
     for (const [name, { handle }] of this.mounted)
       if (!own || name !== this.state_.tab) handle?.changed?.(path ?? null, version ?? null);
-    if (!own && path) this.say(from ? words.saved_elsewhere(path) : words.changed_on_disk(path));
+    if (!own && path) this.say(from ? tr`${path} was saved in another window` : tr`${path} has changed on the disk`);
     // A new file, or one that is gone.
     if (!version || !this.state_.project?.files.some((file) => file.path === path)) void this.loadProject();
   }
@@ -155,7 +155,7 @@ export class App {
     const before = this.mounted.get(this.state_.tab);
     if (this.state_.tab !== entry.name) before?.handle?.hide?.();
     this.set({ tab: entry.name, ...(params.machine ? { machine: params.machine } : {}) });
-    document.title = `${titleOf(entry)} – TrueAxis`;
+    document.title = `${entry.title} – TrueAxis`;
     try {
       const now = await this.mountTab(entry);
       for (const [key, { host }] of this.mounted) host.hidden = key !== this.state_.tab;
@@ -200,7 +200,7 @@ export class App {
     if (first === undefined) return;
     this.unsaved_link.href = hashOf(tab, { machine: first });
     this.unsaved_link.title = paths.join("\n");
-    this.unsaved_link.textContent = words.unsaved(paths.length);
+    this.unsaved_link.textContent = paths.length === 1 ? tr`1 file not saved` : tr`${paths.length} files not saved`;
   }
 
   /** One line below; replaces the last. */
@@ -238,13 +238,9 @@ export class App {
       refusal.hint ? h("p", { class: "hint" }, refusal.hint) : null,
       refusal.diagnostics.length > 0 ? diagnosticList(refusal.diagnostics.slice(0, 6)) : null,
       refusal.diagnostics.length > 6
-        ? h("p", { class: "muted", lang: language() }, words.more(refusal.diagnostics.length - 6))
+        ? h("p", { class: "muted" }, tr`and ${refusal.diagnostics.length - 6} more`)
         : null,
-      h(
-        "button",
-        { class: "toast-close", lang: language(), ariaLabel: words.close_message, onclick: () => toast.remove() },
-        "×",
-      ),
+      h("button", { class: "toast-close", ariaLabel: tr`Close this message`, onclick: () => toast.remove() }, "×"),
     );
     this.toasts.append(toast);
     while (this.toasts.children.length > 4) this.toasts.firstElementChild?.remove();
@@ -266,22 +262,22 @@ export class App {
             dataTab: name,
             onclick: (event: MouseEvent) => this.keepMachine(event, name),
           },
-          titleOf(entry),
+          entry.title,
         ),
       );
     }
     this.tabs.addEventListener("keydown", (event) => this.moveFocus(event));
     const theme = h(
       "select",
-      { class: "theme", ariaLabel: words.theme, onchange: () => chooseTheme(theme.value as ThemeChoice) },
-      h("option", { value: "auto" }, words.themes.auto),
-      h("option", { value: "light" }, words.themes.light),
-      h("option", { value: "dark" }, words.themes.dark),
+      { class: "theme", ariaLabel: tr`Light or dark`, onchange: () => chooseTheme(theme.value as ThemeChoice) },
+      h("option", { value: "auto" }, tr`System`),
+      h("option", { value: "light" }, tr`Light`),
+      h("option", { value: "dark" }, tr`Dark`),
     );
     theme.value = themeChoice();
     const tongue = h(
       "select",
-      { class: "language", ariaLabel: words.language, onchange: () => chooseLanguage(tongue.value) },
+      { class: "language", ariaLabel: tr`Language`, onchange: () => chooseLanguage(tongue.value) },
       languages.map(({ code, name }) => h("option", { value: code, lang: code }, name)),
     );
     tongue.value = language();
@@ -338,15 +334,18 @@ export class App {
     this.link.dataset.state = state.connection;
     const version = state.project ? ` ${state.project.version}` : "";
     this.link.textContent = {
-      connecting: words.connecting,
+      connecting: tr`connecting …`,
       open: `TrueAxis${version}`,
-      lost: words.lost,
+      lost: tr`no connection – trying again`,
     }[state.connection];
   }
 }
 
-/** A tab that the words do not know keeps its own title. */
-const titleOf = ({ name, title }: TabEntry): string => words.tabs[name] ?? title;
+/** What a code means, where the page is not in English: the message has the details. */
+function codeTitle(code: string): HTMLElement | null {
+  const title = codeWords(code);
+  return title === null ? null : h("strong", {}, title);
+}
 
 /** "machine.toml:41:8  message  hint", one line each. */
 export function diagnosticList(diagnostics: readonly Diagnostic[]): HTMLElement {
@@ -357,15 +356,16 @@ export function diagnosticList(diagnostics: readonly Diagnostic[]): HTMLElement 
       const place = d.file
         ? `${d.file}${d.line ? `:${d.line}${d.column ? `:${d.column}` : ""}` : ""}`
         : d.line
-          ? `line ${d.line}`
+          ? tr`line ${d.line}`
           : "";
       return h(
         "li",
         { class: `diagnostic ${d.severity}` },
-        h("span", { class: "diagnostic-severity" }, d.severity),
+        h("span", { class: "diagnostic-severity" }, severityWord(d.severity)),
         place ? h("code", {}, place) : null,
-        h("span", {}, withErrorNames(d.message)),
-        d.hint ? h("span", { class: "hint" }, d.hint) : null,
+        codeTitle(d.code),
+        h("span", { lang: "en" }, withErrorNames(d.message)),
+        d.hint ? h("span", { class: "hint", lang: "en" }, d.hint) : null,
       );
     }),
   );
@@ -379,7 +379,7 @@ export function split(host: HTMLElement, key: string, share = 0.6): { left: HTML
     class: "split-divider",
     role: "separator",
     tabindex: "0",
-    ariaLabel: "Resize the picture",
+    ariaLabel: tr`Resize the picture`,
     ariaOrientation: "vertical",
     ariaValuemin: "20",
     ariaValuemax: "80",

@@ -1,7 +1,7 @@
 /** A window over the page: Escape, its button or a press around it close it, and the focus goes back. */
 
 import { fill, h, type Child } from "./dom.ts";
-import { words } from "./words/index.ts";
+import { tr } from "./words/index.ts";
 
 export interface Dialog {
   readonly element: HTMLDialogElement;
@@ -25,8 +25,8 @@ export function dialog(name: string): Dialog {
         "button",
         {
           class: "dialog-close",
-          ariaLabel: words.close,
-          title: `${words.close} (Esc)`,
+          ariaLabel: tr`Close`,
+          title: `${tr`Close`} (Esc)`,
           onclick: () => element.close(),
         },
         "×",

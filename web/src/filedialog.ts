@@ -1,5 +1,6 @@
 /** A small TOML file that is stated in a form, and edited as text from then on. */
 
+import { tr } from "./words/index.ts";
 import type { App } from "./app.ts";
 import { Refusal } from "./api.ts";
 import { fill, h, type Child } from "./dom.ts";
@@ -89,7 +90,7 @@ export class FileDialog {
   private draw(): void {
     const { stated } = this;
     if (!stated) return;
-    const close = h("button", { type: "button", onclick: () => this.element.close() }, "Cancel");
+    const close = h("button", { type: "button", onclick: () => this.element.close() }, tr`Cancel`);
     fill(
       this.element,
       h("h2", {}, stated.title),
@@ -103,7 +104,7 @@ export class FileDialog {
         h(
           "span",
           { class: "muted" },
-          stated.kept?.where ?? (typeof stated.path === "string" ? `saved as ${stated.path}` : ""),
+          stated.kept?.where ?? (typeof stated.path === "string" ? tr`saved as ${stated.path}` : ""),
         ),
       ),
     );

@@ -1,9 +1,9 @@
-/** The list of keys that `?` shows (its texts: words/), and whether keys without Ctrl act at all. A key that is added somewhere is listed there. */
+/** The list of keys that `?` shows, and whether keys without Ctrl act at all. */
 
 import { dialog, dialogOpen } from "./dialog.ts";
 import { h } from "./dom.ts";
 import { explain } from "./glossary/glossary.ts";
-import { words } from "./words/index.ts";
+import { tr } from "./words/index.ts";
 
 const KEPT = "trueaxis-single-keys";
 
@@ -19,6 +19,60 @@ export function tabKey(event: KeyboardEvent): string | null {
   return event.key.length === 1 ? event.key.toLowerCase() : event.key;
 }
 
+/** A key that is added somewhere is listed here. */
+const GROUPS: readonly { title: string; keys: readonly (readonly [string, string])[] }[] = [
+  {
+    title: tr`Everywhere`,
+    keys: [
+      ["?", tr`this list`],
+      ["E", tr`names of errors, each with a drawing`],
+      [tr`Tab, Shift+Tab`, tr`to the next and the previous control`],
+      [tr`← → Home End`, tr`on the tabs and on pages of a tab: move; Enter opens`],
+      ["← → ↑ ↓", tr`on the divider: resize the picture`],
+      [tr`Esc`, tr`close a dialog`],
+    ],
+  },
+  {
+    title: tr`Simulate`,
+    keys: [
+      [tr`Space`, tr`play, pause`],
+      ["← →", tr`a block back, a block on`],
+      [tr`Home, End`, tr`to the start, to the end`],
+      ["G", tr`go to a line`],
+      ["/", tr`find in the program; Enter the next place, Shift+Enter the one before`],
+      [tr`N, Shift+N`, tr`the next and the previous issue: collisions, over-travel; where there is none, remarks`],
+      [tr`↑ ↓ Page Up, Page Down`, tr`in the source: move the mark; Enter goes to its line`],
+    ],
+  },
+  {
+    title: tr`Describe`,
+    keys: [
+      [tr`Ctrl+S`, tr`save the machine file`],
+      [tr`Ctrl+Z, Ctrl+Shift+Z`, tr`undo, redo`],
+      [tr`Enter, Esc`, tr`in the field of an error: keep, restore`],
+    ],
+  },
+  {
+    title: tr`Machine in three dimensions`,
+    keys: [
+      ["← → ↑ ↓", tr`turn; with Shift move`],
+      ["+ −", tr`nearer, farther`],
+      ["0 1 2 3", tr`views: iso, along X, Y, Z`],
+      ["4", tr`show everything`],
+      ["5", tr`parallel projection`],
+    ],
+  },
+  {
+    title: tr`Figures`,
+    keys: [
+      ["← →", tr`on a curve: read it point by point`],
+      ["← → ↑ ↓", tr`on a matrix: read it cell by cell`],
+      [tr`Enter`, tr`on a curve over time: go to that time; on a bar, a hole or a row: choose it`],
+      ["+ −", tr`on a curve over time: look closer, show all`],
+    ],
+  },
+];
+
 const list = dialog("keys");
 
 function show(): void {
@@ -28,12 +82,12 @@ function show(): void {
     onchange: () => (single.checked ? localStorage.removeItem(KEPT) : localStorage.setItem(KEPT, "off")),
   });
   list.show(
-    words.keys,
-    h("p", {}, h("label", { class: "check" }, single, words.single_keys)),
+    tr`Keys`,
+    h("p", {}, h("label", { class: "check" }, single, tr`Keys without Ctrl act on the page`)),
     h(
       "div",
       { class: "keys" },
-      words.key_groups.map(({ title, keys }) =>
+      GROUPS.map(({ title, keys }) =>
         h(
           "section",
           {},
@@ -64,7 +118,7 @@ export function keysButton(): HTMLElement {
   });
   return h(
     "button",
-    { class: "keys-button", title: `${words.keys} (?)`, ariaLabel: words.keys, ariaHaspopup: "dialog", onclick: show },
+    { class: "keys-button", title: `${tr`Keys`} (?)`, ariaLabel: tr`Keys`, ariaHaspopup: "dialog", onclick: show },
     "?",
   );
 }

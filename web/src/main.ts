@@ -15,11 +15,13 @@ import "./style/set-up.css";
 import "./style/simulate-time.css";
 import "./style/live.css";
 import "./style/dialog.css";
-import { App } from "./app.ts";
 import { startTheme } from "./theme.ts";
-import { language } from "./words/index.ts";
+import { language, loadLanguage } from "./words/index.ts";
 
 startTheme();
 document.documentElement.lang = language();
+await loadLanguage();
+// Only now, as constants of its modules hold texts.
+const { App } = await import("./app.ts");
 const root = document.getElementById("app");
 if (root) void new App(root).start();

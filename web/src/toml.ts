@@ -1,5 +1,7 @@
 /** Small TOML texts from the fields of a form; nothing is written for an empty field. */
 
+import { tr } from "./words/index.ts";
+
 /** A field; its value is text, with its unit where it has one. */
 export interface Field {
   /** `uncertainty`; empty at the top of the file. `[[x]]` is written for a name that ends in `[]`. */
@@ -15,7 +17,7 @@ export interface Field {
   pattern?: readonly [RegExp, string];
 }
 
-const DATE: Required<Field>["pattern"] = [/^\d{4}-\d{2}-\d{2}$/, "a date is written 2026-11-28"];
+const DATE: Required<Field>["pattern"] = [/^\d{4}-\d{2}-\d{2}$/, tr`a date is written 2026-11-28`];
 
 /** A field of text. */
 export const field = (section: string, key: string, label: string, example: string): Field => ({
@@ -42,7 +44,7 @@ export const nameOf = (field: Pick<Field, "section" | "key">): string =>
 /** What is wrong with a field; null for a good one or nothing. */
 export function wrongField({ pattern, label, needed }: Field, value: string): string | null {
   const text = value.trim();
-  if (needed && text === "") return `${label}: it is needed`;
+  if (needed && text === "") return tr`${label}: it is needed`;
   return text === "" || !pattern || pattern[0].test(text) ? null : `${label}: ${pattern[1]}`;
 }
 

@@ -115,6 +115,8 @@ export async function open(browser, address, { dark = false, width = 1400, heigh
   });
   page.setDefaultTimeout(Number(process.env.PATIENCE ?? 30_000));
   await page.goto(address);
+  // The page is made after its language is loaded.
+  await page.waitForFunction(() => !document.getElementById("app") || document.querySelector(".tab-link"));
   return { page, context, complaints };
 }
 

@@ -283,5 +283,29 @@ assert.equal(
   '# Heading\nname = "a \\"b\\""\n\n[r]\ndate = 2026-11-28\n\n[[r.i]]\ns = ["one", "two"]\n',
 );
 
+// What the server says, in another language: the rules of crates/trueaxis-words, with the cases of its tests.
+const { entriesOf, lookupOf } = await vite.ssrLoadModule("/src/words/sentences.ts");
+const file = `# figures
+"{0n} of {1n} points" = "{0} von {1} Punkten"  # with a remark
+"{0} of {1}" = "{0} von {1}"
+"{1} before {0}" = "{0} nach {1}"
+"a \\"quoted\\" text" = "„so“"
+error = "Fehler"`;
+const german = lookupOf(entriesOf(file));
+for (const [text, said] of [
+  ["3 of 5 points", "3 von 5 Punkten"],
+  ["−3 of 5 points", "−3 von 5 Punkten"],
+  ["all of 5 points", "all von 5 points"],
+  ["error of EXX", "Fehler von EXX"],
+  ["X before Y", "Y nach X"],
+  ['a "quoted" text', "„so“"],
+  ["EXX", undefined],
+  ["2.5 µm", undefined],
+  ["constructor", undefined],
+]) {
+  assert.equal(german(text), said, text);
+}
+assert.equal(entriesOf(file).length, 5);
+
 await vite.close();
 console.log("unit checks passed");

@@ -1,5 +1,6 @@
 //! `trueaxis check`: what a machine file describes and what is missing in it.
 
+use crate::door::tongue;
 use crate::output::{Answer, Format, Outcome, report, show};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -8,6 +9,7 @@ use trueaxis::input::{Diagnostics, Place};
 use trueaxis::machine::Machine;
 use trueaxis::report::{check_json, check_report, frames_section};
 use trueaxis::simulate::collide::export;
+use trueaxis_words::Tongue;
 
 /// The machine file to check.
 #[derive(Args)]
@@ -32,6 +34,9 @@ pub struct Arguments {
     /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
+    /// The language of the text: en, de (German), zh (Chinese)
+    #[arg(long, default_value = "en", value_parser = tongue, value_name = "LANGUAGE")]
+    language: Tongue,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
@@ -45,7 +50,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
         (Format::Json, _) => show(&Answer::Json(check_json(machine.as_ref(), found.iter()))),
         (Format::Text, Some(machine)) => {
             let frames = arguments.frames.then(|| frames_section(machine));
-            show(&Answer::Text(check_report(machine).sections(frames).text()))
+            let language = arguments.language.language();
+            show(&Answer::Text(check_report(machine).sections(frames).in_language(language).text()))
         }
         (Format::Text, None) => Outcome::Unusable,
     };

@@ -5,12 +5,13 @@ mod program;
 mod tables;
 
 use crate::arguments::MachineArguments;
-use crate::door::Door;
+use crate::door::{Door, tongue};
 use crate::output::{self, Outcome};
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use trueaxis::predict::holes::Compensation;
 use trueaxis::questions::{CompensateValues, ValuesForm};
+use trueaxis_words::Tongue;
 
 /// The form of the compensation.
 #[derive(Args)]
@@ -76,6 +77,9 @@ struct ValuesArguments {
     /// Replace the file, also one that this program did not write or that was edited since
     #[arg(long)]
     force: bool,
+    /// The language of the text: en, de (German), zh (Chinese)
+    #[arg(long, default_value = "en", value_parser = tongue, value_name = "LANGUAGE")]
+    language: Tongue,
 }
 
 /// Which error is compensated.
@@ -129,5 +133,6 @@ fn run_values(arguments: ValuesArguments) -> Outcome {
     // The values know their form; on standard output JSON is that of every command, refusals too.
     let is_document = question.form == ValuesForm::Json && question.output.is_none();
     let format = if is_document { output::Format::Json } else { output::Format::Text };
-    Door { format, report: None, heading: None, force: arguments.force }.ask(&question)
+    let (force, language) = (arguments.force, arguments.language);
+    Door { format, report: None, heading: None, force, language }.ask(&question)
 }

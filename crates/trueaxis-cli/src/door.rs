@@ -11,6 +11,7 @@ use trueaxis::input::Diagnostics;
 use trueaxis::questions::{Answer, Content, NewFile, Question, is_finite, may_put};
 use trueaxis::report::refused_json;
 use trueaxis_paper::ReportFile;
+use trueaxis_words::{TONGUES, Tongue};
 
 /// What is shown and written.
 #[derive(Args)]
@@ -30,13 +31,22 @@ pub struct DoorArguments {
     /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
+    /// The language of the text and of the report: en, de (German), zh (Chinese); JSON and tables stay as they are
+    #[arg(long, default_value = "en", value_parser = tongue, value_name = "LANGUAGE")]
+    language: Tongue,
+}
+
+/// A language by its code.
+pub fn tongue(code: &str) -> Result<Tongue, String> {
+    let known: Vec<&str> = TONGUES.iter().map(|(code, _)| *code).collect();
+    Tongue::named(code).ok_or_else(|| format!("the languages are {}", known.join(", ")))
 }
 
 impl DoorArguments {
     /// The door with these arguments.
     pub fn door(&self) -> Door<'_> {
         let (report, heading) = (self.report.as_deref(), self.heading.as_deref());
-        Door { format: self.format, report, heading, force: self.force }
+        Door { format: self.format, report, heading, force: self.force, language: self.language }
     }
 }
 
@@ -50,6 +60,8 @@ pub struct Door<'a> {
     pub heading: Option<&'a Path>,
     /// Whether files are replaced that this program did not write.
     pub force: bool,
+    /// The language of text and report.
+    pub language: Tongue,
 }
 
 impl Door<'_> {
@@ -62,7 +74,13 @@ impl Door<'_> {
         let mut problems = Diagnostics::new();
         let (files, read) = noted_disk();
         let input = question.read(&files, &mut problems);
-        let report_file = ReportFile::read(self.report, self.heading, &files, &mut problems);
+        let report_file = ReportFile::read(
+            self.report,
+            self.heading,
+            self.language.language(),
+            &files,
+            &mut problems,
+        );
         let guard = Guard { read, force: self.force };
         let report_output = report_file.as_ref().map(|file| Output::file("--report", file.path()));
         let outputs: Vec<_> =
@@ -102,7 +120,7 @@ impl Door<'_> {
         answer.notes().iter().for_each(|note| tell(note));
         let shown = show_by(|out| match self.format {
             Format::Json => answer.write_json(&found, out),
-            Format::Text => answer.write_text(out),
+            Format::Text => answer.write_text(self.language.language(), out),
         });
         Ok(match shown {
             Outcome::Done if failed => Outcome::Unusable,

@@ -3,7 +3,7 @@
 use crate::{Form, PrintError, Printed, print, read_heading};
 use std::path::{Path, PathBuf};
 use trueaxis_input::{Diagnostics, Files, Place};
-use trueaxis_report::{Heading, Report};
+use trueaxis_report::{Heading, Language, Report};
 
 /// The file of a report.
 #[derive(Debug)]
@@ -11,23 +11,27 @@ pub struct ReportFile {
     path: PathBuf,
     form: Form,
     heading: Option<Heading>,
+    language: &'static dyn Language,
 }
 
 impl ReportFile {
-    /// What was asked for: the file of the report, and that of its heading. None without a report, or with errors, which
+    /// What was asked for: the file of the report, that of its heading, its language. None without a report, or with errors, which
     /// stand in `problems`.
     ///
     /// ```
     /// use trueaxis_input::{Diagnostics, Files};
     /// use trueaxis_paper::ReportFile;
+    /// use trueaxis_report::English;
     /// let mut problems = Diagnostics::new();
-    /// let file = ReportFile::read(Some("x.docx".as_ref()), None, &Files::none(), &mut problems);
+    /// let (path, files) = (Some("x.docx".as_ref()), Files::none());
+    /// let file = ReportFile::read(path, None, &English, &files, &mut problems);
     /// assert!(file.is_none());
     /// assert_eq!(problems.iter().next().unwrap().code, "unknown-report-form");
     /// ```
     pub fn read(
         path: Option<&Path>,
         heading: Option<&Path>,
+        language: &'static dyn Language,
         files: &Files,
         problems: &mut Diagnostics,
     ) -> Option<Self> {
@@ -38,11 +42,12 @@ impl ReportFile {
             let message = "a heading without a report".to_owned();
             problems.error("no-report", place, message, "add `--report FILE.pdf`");
         }
-        match read {
-            Some(None) => None,
-            Some(heading) => Some(Self { path: path?.to_owned(), form: form?, heading }),
-            None => Some(Self { path: path?.to_owned(), form: form?, heading: None }),
-        }
+        let heading = match read {
+            Some(None) => return None,
+            Some(heading) => heading,
+            None => None,
+        };
+        Some(Self { path: path?.to_owned(), form: form?, heading, language })
     }
 
     /// Where it goes.
@@ -60,6 +65,7 @@ impl ReportFile {
         problems: &mut Diagnostics,
     ) -> Result<Vec<u8>, PrintError> {
         let report = Report { heading: self.heading.clone(), date: today(), ..report };
+        let report = report.in_language(self.language);
         let Printed { bytes, missing } = print(&report, self.form)?;
         if !missing.is_empty() {
             let place = Place::whole(&self.path.display().to_string());

@@ -8,6 +8,7 @@ use trueaxis::input::Diagnostics;
 use trueaxis::questions::Answer;
 use trueaxis::report::{DrawingError, Report};
 use trueaxis_paper::today;
+use trueaxis_words::Tongue;
 
 /// An answer of the library, whatever the verb.
 pub type Held = Box<dyn Answer + Send>;
@@ -19,6 +20,8 @@ pub struct NativeAnswer {
     found: Diagnostics,
     /// Whether its text is that of the report, and not what the command prints.
     reads_as_report: bool,
+    /// The language of its text, its page and its pictures.
+    language: Tongue,
     /// Whether the verdict is "yes", where there is one.
     #[pyo3(get)]
     is_yes: bool,
@@ -39,13 +42,27 @@ impl NativeAnswer {
         let (is_yes, notes) = (answer.is_yes(), answer.notes());
         let in_spite_of_errors = answer.in_spite_of_errors();
         let answer = Mutex::new(answer);
-        let reads_as_report = false;
-        Self { answer, found, reads_as_report, is_yes, in_spite_of_errors, notes, written }
+        let (reads_as_report, language) = (false, Tongue::English);
+        Self {
+            answer,
+            found,
+            reads_as_report,
+            language,
+            is_yes,
+            in_spite_of_errors,
+            notes,
+            written,
+        }
     }
 
     /// The same with the report as its text: where what the command prints depends on the form that was asked for.
     pub fn by_report(self) -> Self {
         Self { reads_as_report: true, ..self }
+    }
+
+    /// The same in another language.
+    pub fn in_language(self, language: Tongue) -> Self {
+        Self { language, ..self }
     }
 
     fn held(&self) -> MutexGuard<'_, Held> {
@@ -67,12 +84,13 @@ impl NativeAnswer {
     /// What the command prints.
     fn text(&self, py: Python<'_>) -> String {
         py.detach(|| {
+            let language = self.language.language();
             if self.reads_as_report {
-                return self.held().report().text();
+                return self.held().report().in_language(language).text();
             }
             let mut text = Vec::new();
             // A vector takes every byte.
-            let _ = self.held().write_text(&mut text);
+            let _ = self.held().write_text(language, &mut text);
             String::from_utf8_lossy(&text).into_owned()
         })
     }
@@ -88,12 +106,16 @@ impl NativeAnswer {
 
     /// The page that the command writes with `--report`.
     fn page(&self, py: Python<'_>) -> PyResult<String> {
-        self.drawn(py, |answer| Report { date: today(), ..answer.report() }.html())
+        let language = self.language.language();
+        self.drawn(py, |answer| {
+            Report { date: today(), ..answer.report() }.in_language(language).html()
+        })
     }
 
     /// Its pictures, SVG.
     fn pictures(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        self.drawn(py, |answer| answer.report().pictures())
+        let language = self.language.language();
+        self.drawn(py, |answer| answer.report().in_language(language).pictures())
     }
 
     /// What was found in the input.

@@ -3,7 +3,7 @@
 use crate::answer::{Held, NativeAnswer};
 use crate::machine::{Contents, with_contents};
 use crate::options::Options;
-use crate::problems::refused;
+use crate::problems::{one, refused};
 use crate::threads;
 use crate::verbs;
 use pyo3::prelude::*;
@@ -14,6 +14,7 @@ use trueaxis::files::{self, noted_disk};
 use trueaxis::input::{Diagnostics, Place};
 use trueaxis::questions::{Answer, Content, NewFile, Question, is_finite, may_put};
 use trueaxis_paper::ReportFile;
+use trueaxis_words::Tongue;
 
 /// What is read from memory, what is written, and whether what stands there is replaced.
 pub struct Door<'py> {
@@ -21,10 +22,11 @@ pub struct Door<'py> {
     memory: Contents,
     report: Option<PathBuf>,
     heading: Option<PathBuf>,
+    language: Tongue,
     force: bool,
 }
 
-/// Puts the question of a verb; `options` by the names of the command, `report` with its heading.
+/// Puts the question of a verb; `options` by the names of the command, `report` with its heading and its language.
 #[pyfunction]
 #[pyo3(signature = (verb, options, memory, report, force))]
 pub fn ask(
@@ -32,11 +34,16 @@ pub fn ask(
     verb: &str,
     options: &Bound<'_, PyDict>,
     memory: Contents,
-    report: (Option<PathBuf>, Option<PathBuf>),
+    report: (Option<PathBuf>, Option<PathBuf>, String),
     force: bool,
 ) -> PyResult<NativeAnswer> {
-    let (report, heading) = report;
-    let door = Door { py, memory, report, heading, force };
+    let (report, heading, language) = report;
+    let Some(language) = Tongue::named(&language) else {
+        let message = format!("no report is written in `{language}`");
+        let hint = "the languages are en, de and zh";
+        return Err(one(py, "unknown-language", "language", message, hint));
+    };
+    let door = Door { py, memory, report, heading, language, force };
     verbs::ask(verb, &Options(options), &door)
 }
 
@@ -56,6 +63,7 @@ impl Door<'_> {
             memory: &self.memory,
             report: self.report.as_deref(),
             heading: self.heading.as_deref(),
+            language: self.language,
             force: self.force,
         };
         let work = || computed(question, &asked);
@@ -77,7 +85,7 @@ impl Door<'_> {
         });
         let Some(answer) = done else { return Err(refused(self.py, &problems)) };
         written.extend(self.report.iter().map(|path| path.display().to_string()));
-        Ok(NativeAnswer::new(answer, problems, written))
+        Ok(NativeAnswer::new(answer, problems, written).in_language(self.language))
     }
 }
 
@@ -86,6 +94,7 @@ struct Asked<'a> {
     memory: &'a Contents,
     report: Option<&'a Path>,
     heading: Option<&'a Path>,
+    language: Tongue,
     force: bool,
 }
 
@@ -106,7 +115,13 @@ fn computed<Q: Question>(question: &Q, asked: &Asked<'_>) -> Computed<Q::Answer>
         false => with_contents(asked.memory.clone(), disk).0,
     };
     let input = question.read(&files, &mut problems);
-    let report = ReportFile::read(asked.report, asked.heading, &files, &mut problems);
+    let report = ReportFile::read(
+        asked.report,
+        asked.heading,
+        asked.language.language(),
+        &files,
+        &mut problems,
+    );
     let guard = Guard { read, force: asked.force };
     let report_output = report.as_ref().map(|file| Output::file("--report", file.path()));
     let outputs: Vec<_> =

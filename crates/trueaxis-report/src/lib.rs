@@ -27,8 +27,8 @@ pub use finite::first_not_finite;
 pub use pictures::{Band, Picture, Polar, PolarLine, Scatter};
 pub use plots::DrawingError;
 pub use report::{
-    Columns, Figure, Heading, Item, Logo, LogoKind, Place, Report, Row, Section, Standing, Table,
-    Verdict,
+    Columns, English, Figure, Heading, Item, Labels, Language, Logo, LogoKind, Place, Report, Row,
+    Section, Standing, Table, Verdict, filled,
 };
 
 /// The version that reports state.

@@ -1,22 +1,30 @@
 //! One self-contained page: opens offline, no script, no file from elsewhere.
 
+use crate::{Labels, filled};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 /// A page with its head, around what it shows.
-pub(crate) fn document(title: &str, content: &Markup) -> String {
+pub(crate) fn document(title: &str, labels: &Labels, content: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
-        html lang="en" {
+        html lang=(labels.language) {
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { (title) }
-                style { (PreEscaped(STYLE)) }
+                style { (PreEscaped(STYLE)) (PreEscaped(page_numbers(&labels.page))) }
             }
             body { main { (content) } }
         }
     };
     page.into_string()
+}
+
+/// `page {0} of {1}` at the foot of each sheet.
+fn page_numbers(label: &str) -> String {
+    let quoted = label.replace(['\\', '\'', '\n', '<'], "");
+    let content = filled(&quoted, &["' counter(page) '", "' counter(pages) '"]);
+    format!("@page {{ @bottom-right {{ content:'{content}'; }} }}\n")
 }
 
 /// Three views beside each other, as the style of a grid.
@@ -57,7 +65,7 @@ table.words td:first-child { white-space:nowrap; }
 img.logo { float:right; height:56px; max-width:30%; }
 .signatures { display:grid; grid-template-columns:repeat(auto-fit, minmax(220px, 1fr)); gap:48px 24px; margin-top:72px; }
 .signatures div { border-top:1px solid var(--ink); padding-top:4px; color:var(--soft); font-size:.9rem; break-inside:avoid; }
-@page { size:A4; margin:16mm 14mm 18mm; @bottom-right { content:'page ' counter(page) ' of ' counter(pages); } }
+@page { size:A4; margin:16mm 14mm 18mm; }
 @media print { html, body { font-size:12px; background:#fff; } main { padding:0; }
   section { break-inside:avoid; border:none; padding:6px 0; margin:8px 0; }
   section.verdict { border-left:8px solid; padding:6px 16px; }

@@ -15,11 +15,13 @@
 
 mod heading;
 mod html;
+mod language;
 mod section;
 mod table;
 mod text;
 
 pub use heading::{Heading, Logo, LogoKind};
+pub use language::{English, Labels, Language, filled};
 pub use section::{Columns, Figure, Item, Place, Section};
 pub use table::{Row, Table};
 
@@ -65,6 +67,8 @@ pub struct Report<'a> {
     pub verdict: Option<Verdict>,
     /// What stands below, in its order; those without content are left out.
     pub sections: Vec<Section<'a>>,
+    /// What the layout itself says.
+    pub labels: Labels,
 }
 
 impl<'a> Report<'a> {
@@ -114,8 +118,9 @@ impl<'a> Report<'a> {
 
     /// Who made it, for the foot of a page.
     pub fn made_by(&self) -> String {
-        let on = if self.date.is_empty() { "" } else { " on " };
-        format!("made by trueaxis {}{on}{}", crate::VERSION, self.date)
+        let Labels { made, made_on, .. } = &self.labels;
+        let label = if self.date.is_empty() { made } else { made_on };
+        filled(label, &[crate::VERSION, &self.date])
     }
 
     /// As the terminal shows it: without heading and pictures, tables cut to the rows that one can read.

@@ -69,6 +69,8 @@ pub(crate) enum FileKind {
     Measured,
     /// A path on a measured blank.
     Blank,
+    /// Readings from which the rotary centres in a control follow.
+    Rtcp,
     /// The heading of a report.
     Heading,
     /// Another TOML file.
@@ -321,6 +323,7 @@ fn kind_of_toml(name: &str, text: &str) -> FileKind {
         () if begins(&["[instrument.", "[[path]]"]) => FileKind::Campaign,
         // After studies, which may compare with a paper.
         () if begins(&["[compare]"]) => FileKind::Comparison,
+        () if begins(&["[control]"]) && begins(&["[readings."]) => FileKind::Rtcp,
         () if begins(&["[report]"]) => FileKind::Heading,
         () if begins(&["[determination]"]) => FileKind::Certificate,
         () if begins(&["[layer]"]) && begins(&["[wall]"]) => FileKind::Blank,

@@ -96,7 +96,7 @@ use std::path::{Path, PathBuf};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_motion::{CONTROLS, control_named};
 use trueaxis_nc::Control;
-use trueaxis_report::{Report, document, not_finite};
+use trueaxis_report::{Language, Report, document, not_finite};
 
 /// Receives the part that is done, 0 to 1.
 pub type Tell<'a> = &'a (dyn Fn(f64) + Sync + 'a);
@@ -135,17 +135,17 @@ pub trait Answer {
     /// For readers.
     fn report(&self) -> Report<'_>;
 
-    /// For the terminal.
-    fn text(&self) -> String {
-        self.report().text()
+    /// For the terminal, in a language.
+    fn text(&self, language: &dyn Language) -> String {
+        self.report().in_language(language).text()
     }
 
     /// Writes it for the terminal; long tables block after block.
     ///
     /// # Errors
     /// What the writer says.
-    fn write_text(&self, out: &mut dyn io::Write) -> io::Result<()> {
-        out.write_all(self.text().as_bytes())
+    fn write_text(&self, language: &dyn Language, out: &mut dyn io::Write) -> io::Result<()> {
+        out.write_all(self.text(language).as_bytes())
     }
 
     /// Writes it as one JSON document, with what was found in the input.

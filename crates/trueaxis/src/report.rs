@@ -65,8 +65,8 @@ pub use trueaxis_measure::report::*;
 pub use trueaxis_motion::report::*;
 pub use trueaxis_predict::report::*;
 pub use trueaxis_report::{
-    Band, DrawingError, Item, Keyed, Picture, Polar, PolarLine, Report, Scatter, Section, Table,
-    Verdict, document, named_schema, numbers,
+    Band, DrawingError, English, Item, Keyed, Language, Picture, Polar, PolarLine, Report, Scatter,
+    Section, Table, Verdict, document, named_schema, numbers,
 };
 pub use trueaxis_rtcp::report::*;
 pub use trueaxis_standards::report::*;

@@ -1,10 +1,11 @@
 /** Horizontal bars, signed, with uncertainty: an error budget, for example. */
 
+import { tr } from "../words/index.ts";
 import { s } from "../dom.ts";
 import { explain } from "../glossary/glossary.ts";
 import { errorName } from "../glossary/names.ts";
 import { NO_NUMBER, number, withUncertainty } from "../format.ts";
-import { figure, ticks, type Drawing, type Figure } from "./figure.ts";
+import { figure, letters, ticks, type Drawing, type Figure } from "./figure.ts";
 
 export interface Bar {
   name: string;
@@ -40,7 +41,7 @@ function valueText(bar: Bar, spec: BarSpec): string {
 }
 
 function drawBars(d: Drawing, spec: BarSpec): void {
-  const names = Math.min(0.4 * d.width, 14 + 6.6 * Math.max(4, ...spec.bars.map((b) => b.name.length)));
+  const names = Math.min(0.4 * d.width, 14 + 6.6 * Math.max(4, ...spec.bars.map((b) => letters(b.name))));
   const values = 26 + 6.4 * Math.max(0, ...spec.bars.map((b) => valueText(b, spec).length - 2));
   const signed = spec.signed ?? spec.bars.some((b) => (b.value ?? 0) < 0);
   const largest = Math.max(spec.limit?.value ?? 0, ...spec.bars.map((b) => Math.abs(b.value ?? 0) + 2 * (b.u ?? 0)));
@@ -135,7 +136,7 @@ function explained(text: SVGElement, name: string): void {
   text.setAttribute("class", "error-text-link");
   text.setAttribute("tabindex", "0");
   text.setAttribute("role", "button");
-  text.setAttribute("aria-label", `${name}: what it is`);
+  text.setAttribute("aria-label", tr`${name}: what it is`);
   pressed(text, () => explain(name));
 }
 
@@ -144,8 +145,8 @@ export function bars(host: HTMLElement, spec: BarSpec): Figure<BarSpec> {
     title: now.title,
     draw: (d) => drawBars(d, now),
     columns: () => [
-      { heading: "name", values: now.bars.map((b) => b.name) },
-      { heading: `value (${now.unit})`, values: now.bars.map((b) => b.value) },
+      { heading: "name", shown: tr`name`, values: now.bars.map((b) => b.name) },
+      { heading: `value (${now.unit})`, shown: tr`value (${now.unit})`, values: now.bars.map((b) => b.value) },
       { heading: `u (${now.unit})`, values: now.bars.map((b) => b.u ?? null) },
     ],
     height: () => now.bars.length * ROW + 24,

@@ -1,9 +1,10 @@
 /** The chain of a machine as a picture: workpiece … bed … tool. */
 
+import { tr, trText } from "../words/index.ts";
 import type { Link } from "../api.ts";
 import { s } from "../dom.ts";
 import { deg, mm, NARROW_SPACE, number } from "../format.ts";
-import { figure, type Figure } from "./figure.ts";
+import { figure, letters, type Figure } from "./figure.ts";
 
 export interface ChainSpec {
   title: string;
@@ -14,8 +15,8 @@ export interface ChainSpec {
 /** "0 … 6200 mm", "±135 °". */
 export function travelText(link: Pick<Link, "kind" | "travel">): string {
   if (link.kind !== "linear" && link.kind !== "rotary") return "";
-  if (!link.travel) return "no travel stated";
-  if (typeof link.travel === "string") return link.travel;
+  if (!link.travel) return tr`no travel stated`;
+  if (typeof link.travel === "string") return trText(link.travel);
   const [from, to] = link.travel;
   const unit = (v: number, digits: number): string => (link.kind === "linear" ? mm(v, digits) : deg(v, digits));
   const digits = Number.isInteger(from) && Number.isInteger(to) ? 0 : 1;
@@ -46,6 +47,10 @@ function cellsOf(links: readonly Link[]): Cell[] {
   return cells;
 }
 
+/** As it is shown. */
+const nameOf = ({ name, kind }: Cell): string =>
+  ({ bed: tr`bed`, workpiece: tr`workpiece`, tool: tr`tool` })[kind as string] ?? name;
+
 /** A double arrow for a slide, an arc for a turn. */
 function glyph(kind: Cell["kind"], x: number, y: number): SVGElement[] {
   const line = { fill: "none", stroke: "var(--muted)", "stroke-width": 1.3 };
@@ -73,8 +78,12 @@ export function chainPicture(host: HTMLElement, spec: ChainSpec): Figure<ChainSp
       title: now.title,
       height: () => 64,
       columns: () => [
-        { heading: "link", values: cells.map((c) => c.name) },
-        { heading: "travel (mm or deg)", values: cells.map((c) => c.below) },
+        { heading: "link", shown: tr`link`, values: cells.map((c) => c.name) },
+        {
+          heading: "travel (mm or deg)",
+          shown: tr`travel (mm or deg)`,
+          values: cells.map((c) => c.below),
+        },
       ],
       draw: ({ svg, width }) => {
         const step = width / cells.length;
@@ -103,7 +112,7 @@ export function chainPicture(host: HTMLElement, spec: ChainSpec): Figure<ChainSp
           const group = s(
             "g",
             {},
-            s("title", {}, cell.below || cell.name),
+            s("title", {}, cell.below || nameOf(cell)),
             s("rect", {
               x: x - box / 2,
               y: 3,
@@ -125,7 +134,7 @@ export function chainPicture(host: HTMLElement, spec: ChainSpec): Figure<ChainSp
                 "font-size": ends && box >= 54 ? Math.min(11.5, (box - 8) / 5.2) : 12.5,
               },
               // Where the word would be too small, the letter of the chain.
-              ends && box < 54 ? cell.body : cell.name,
+              ends && box < 54 ? cell.body : nameOf(cell),
             ),
             ...glyph(cell.kind, x, 34),
           );
@@ -133,7 +142,7 @@ export function chainPicture(host: HTMLElement, spec: ChainSpec): Figure<ChainSp
           group.addEventListener("pointerleave", () => now.onhover?.(null));
           svg.append(group);
           // Words that would run into their neighbours are left to the tooltip.
-          const size = Math.min(10.5, (step - 6) / (0.62 * cell.below.length));
+          const size = Math.min(10.5, (step - 6) / (0.62 * letters(cell.below)));
           if (size > 8)
             svg.append(
               s("text", { x, y: 60, "text-anchor": "middle", fill: "var(--muted)", "font-size": size }, cell.below),

@@ -1,9 +1,10 @@
 /** Lines and points over two axes. */
 
+import { tr } from "../words/index.ts";
 import { s } from "../dom.ts";
 import { number, withUnit } from "../format.ts";
 import { rangeOf, seriesColour } from "./colours.ts";
-import { axisTitle, figure, padded, ticks, type Column, type Drawing, type Figure } from "./figure.ts";
+import { axisTitle, figure, letters, padded, ticks, type Column, type Drawing, type Figure } from "./figure.ts";
 
 export interface Axis {
   label: string;
@@ -258,7 +259,7 @@ export function drawLegend(
       }),
       s("text", { x: x + 20, y: top + 4, fill: "var(--ink)" }, name),
     );
-    x += 34 + 6.1 * name.length;
+    x += 34 + 6.1 * letters(name);
   }
 }
 
@@ -389,8 +390,14 @@ function columnsOf(spec: ChartSpec): Column[] {
       { heading: `${name}${axisTitle(spec.x.label, spec.x.unit)}`, values: one.x },
       { heading: `${name}${axisTitle(spec.y.label, spec.y.unit)}`, values: one.y },
     ];
-    if (one.half) columns.push({ heading: `${name}half width of the band (${spec.y.unit ?? "1"})`, values: one.half });
-    if (one.u) columns.push({ heading: `${name}u (${spec.y.unit ?? "1"})`, values: one.u });
+    const unit = spec.y.unit ?? "1";
+    if (one.half)
+      columns.push({
+        heading: `${name}half width of the band (${unit})`,
+        shown: tr`${name}half width of the band (${unit})`,
+        values: one.half,
+      });
+    if (one.u) columns.push({ heading: `${name}u (${unit})`, values: one.u });
     return columns;
   });
 }

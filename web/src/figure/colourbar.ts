@@ -1,9 +1,10 @@
 /** The scale of a coloured picture. */
 
+import { tr } from "../words/index.ts";
 import { s } from "../dom.ts";
 import { number } from "../format.ts";
 import { css, sequential, type ColourMap } from "./colours.ts";
-import { ticks } from "./figure.ts";
+import { letters, ticks } from "./figure.ts";
 
 export interface ColourBarSpec {
   title: string;
@@ -19,14 +20,14 @@ export function colourBar(spec: ColourBarSpec): SVGSVGElement {
   const map = spec.map ?? sequential;
   const [low, high] = spec.range;
   const words = `${spec.title} (${spec.unit})`;
-  const width = Math.max(96, 12 + 6.9 * words.length);
+  const width = Math.max(96, 12 + 6.9 * letters(words));
   const right = width - 6;
   const svg = s("svg", {
     class: "colour-bar",
     width,
     height: height + top + 12,
     role: "img",
-    "aria-label": `${spec.title}: ${number(low, 2)} to ${number(high, 2)} ${spec.unit}`,
+    "aria-label": tr`${spec.title}: ${number(low, 2)} to ${number(high, 2)} ${spec.unit}`,
     "font-size": "11",
   });
   svg.append(s("text", { x: right, y: 16, "text-anchor": "end", fill: "var(--ink)", "font-weight": "600" }, words));

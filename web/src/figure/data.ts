@@ -1,5 +1,6 @@
 /** The numbers of a figure as a table: for those who do not see it, and for those who want to read them off. */
 
+import { tr, trText } from "../words/index.ts";
 import { dialog } from "../dialog.ts";
 import { h } from "../dom.ts";
 import { number } from "../format.ts";
@@ -9,7 +10,6 @@ import type { Column } from "./figure.ts";
 const MOST_ROWS = 500;
 
 const over = dialog("data");
-over.element.lang = "en";
 
 function cell(value: number | string | null | undefined, heads_row: boolean): HTMLElement {
   if (typeof value === "number") return h("td", { class: "number" }, number(value, digitsOf(value)));
@@ -35,11 +35,11 @@ export function showData(title: string, columns: readonly Column[]): void {
         h(
           "tr",
           {},
-          columns.map(({ heading, values }) =>
+          columns.map(({ heading, shown: words = trText(heading), values }) =>
             h(
               heading ? "th" : "td",
               { class: typeof values[0] === "number" ? "number" : "", scope: heading ? "col" : null },
-              heading,
+              words,
             ),
           ),
         ),
@@ -57,7 +57,7 @@ export function showData(title: string, columns: readonly Column[]): void {
       ),
     ),
     shown < rows
-      ? h("p", { class: "muted" }, `The first ${shown} of ${rows} rows; all of them are in the CSV file.`)
+      ? h("p", { class: "muted" }, tr`The first ${shown} of ${rows} rows; all of them are in the CSV file.`)
       : null,
   );
 }

@@ -1,5 +1,6 @@
 /** What every figure has: a title, a drawing that follows its host's size and the theme, a menu to save it. */
 
+import { tr } from "../words/index.ts";
 import { download, h, perFrame, s } from "../dom.ts";
 import { onTheme } from "../theme.ts";
 import { showData } from "./data.ts";
@@ -7,6 +8,8 @@ import { showData } from "./data.ts";
 /** Columns of the data of a figure, as they go into the CSV file: heading with unit, values. */
 export interface Column {
   heading: string;
+  /** The heading on the page, where that of the file stays English. */
+  shown?: string;
   values: ArrayLike<number | string | null>;
 }
 
@@ -40,7 +43,7 @@ export function fileName(title: string): string {
     title
       .toLowerCase()
       .replaceAll("µ", "u")
-      .replace(/[^a-z0-9]+/g, "-")
+      .replace(/[^a-z0-9äöüß\p{Script=Han}]+/gu, "-")
       .replace(/^-|-$/g, "") || "figure"
   );
 }
@@ -107,17 +110,21 @@ export interface Exports {
 /** The small menu at the upper right of a figure: its numbers as a table, SVG, PNG, CSV. */
 export function exportMenu(title: () => string, exports: Exports): HTMLElement {
   const item = (label: string, run: () => void): HTMLElement =>
-    h("button", { class: "figure-save", ariaLabel: `Save as ${label}`, onclick: run }, label);
+    h("button", { class: "figure-save", ariaLabel: tr`Save as ${label}`, onclick: run }, label);
   const table = h(
     "button",
     {
       class: "figure-save",
-      title: "The numbers of this figure as a table",
+      title: tr`The numbers of this figure as a table`,
       onclick: () => showData(title(), exports.columns()),
     },
-    "Table",
+    tr`Table`,
   );
-  const save = h("span", { class: "figure-menu", role: "group", ariaLabel: "This figure as numbers and files" }, table);
+  const save = h(
+    "span",
+    { class: "figure-menu", role: "group", ariaLabel: tr`This figure as numbers and files` },
+    table,
+  );
   const svg = exports.svg;
   if (svg) save.append(item("SVG", () => download(`${fileName(title())}.svg`, svg(), "image/svg+xml")));
   save.append(
@@ -196,6 +203,10 @@ export function figure<D>(host: HTMLElement, data: D, make: (data: D) => FigureS
     },
   };
 }
+
+/** About how many letters wide a text is: a Chinese sign is as wide as two. */
+export const letters = (text: string): number =>
+  [...text].reduce((sum, sign) => sum + (/[\u2e80-\uffef]/.test(sign) ? 1.8 : 1), 0);
 
 // ---- axes ------------------------------------------------------------------------------------
 

@@ -4,7 +4,7 @@ import { s } from "../dom.ts";
 import { number, withUnit } from "../format.ts";
 import { isDark } from "../theme.ts";
 import { css, diverging, divergingDark, rangeOf, sequential, type ColourMap } from "./colours.ts";
-import { figure, type Drawing, type Figure } from "./figure.ts";
+import { figure, letters, type Drawing, type Figure } from "./figure.ts";
 
 export interface HeatmapSpec {
   title: string;
@@ -23,8 +23,8 @@ export interface HeatmapSpec {
 function drawHeatmap(d: Drawing, spec: HeatmapSpec): void {
   const [n, m] = [spec.rows.length, spec.columns.length];
   const named = m <= 60;
-  const left = named ? 10 + 7.4 * Math.max(3, ...spec.rows.map((r) => r.length)) : 10;
-  const top = named ? 10 + 7.4 * Math.max(3, ...spec.columns.map((c) => c.length)) : 10;
+  const left = named ? 10 + 7.4 * Math.max(3, ...spec.rows.map((r) => letters(r))) : 10;
+  const top = named ? 10 + 7.4 * Math.max(3, ...spec.columns.map((c) => letters(c))) : 10;
   const cell = Math.max(2, Math.min(26, (d.width - left - 4) / Math.max(1, m)));
   const found = rangeOf(spec.values);
   const range = spec.range ?? (found[0] < 0 ? [-Math.max(-found[0], found[1]), Math.max(-found[0], found[1])] : found);
@@ -132,8 +132,8 @@ export function heatmap(host: HTMLElement, spec: HeatmapSpec): Figure<HeatmapSpe
       })),
     ],
     height: (width) => {
-      const left = 10 + 7.4 * Math.max(3, ...now.rows.map((r) => r.length));
-      const top = 10 + 7.4 * Math.max(3, ...now.columns.map((c) => c.length));
+      const left = 10 + 7.4 * Math.max(3, ...now.rows.map((r) => letters(r)));
+      const top = 10 + 7.4 * Math.max(3, ...now.columns.map((c) => letters(c)));
       return (
         top + 24 + now.rows.length * Math.max(2, Math.min(26, (width - left - 4) / Math.max(1, now.columns.length)))
       );

@@ -1,5 +1,6 @@
 /** Deviations from a circle, magnified by a factor that is printed, with fitted circles. */
 
+import { tr } from "../words/index.ts";
 import { s } from "../dom.ts";
 import { factor, number, withUnit } from "../format.ts";
 import { rangeOf, seriesColour } from "./colours.ts";
@@ -173,8 +174,8 @@ function drawPolar(d: Drawing, spec: PolarSpec): void {
   }));
   drawLegend(d.svg, items, 4, 8);
   const magnified = spec.radius_mm
-    ? `deviations ${factor((c.k * (spec.units_per_mm ?? 1000)) / (c.base / spec.radius_mm))}`
-    : `${withUnit(c.step, 3, spec.unit)} per ring`;
+    ? tr`deviations ${factor((c.k * (spec.units_per_mm ?? 1000)) / (c.base / spec.radius_mm))}`
+    : tr`${withUnit(c.step, 3, spec.unit)} per ring`;
   d.svg.append(s("text", { x: 4, y: d.height - 4, fill: "var(--actual-ink)", "font-weight": "600" }, magnified));
   addPolarReadout(d, spec, c, at);
 }
@@ -236,8 +237,12 @@ export function polar(host: HTMLElement, spec: PolarSpec): Figure<PolarSpec> {
     draw: (d) => drawPolar(d, now),
     columns: () =>
       now.series.flatMap((one) => [
-        { heading: `${one.name} angle (rad)`, values: one.angle_rad },
-        { heading: `${one.name} deviation (${now.unit})`, values: one.deviation },
+        { heading: `${one.name} angle (rad)`, shown: tr`${one.name} angle (rad)`, values: one.angle_rad },
+        {
+          heading: `${one.name} deviation (${now.unit})`,
+          shown: tr`${one.name} deviation (${now.unit})`,
+          values: one.deviation,
+        },
       ]),
     height: (width) => Math.min(now.height ?? 380, width + 34),
   }));

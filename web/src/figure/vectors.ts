@@ -1,5 +1,6 @@
 /** Vectors at places of a machine, magnified by a factor that is printed, from any side. */
 
+import { tr } from "../words/index.ts";
 import { s } from "../dom.ts";
 import { factor, number, withUnit } from "../format.ts";
 import { drawLegend } from "./chart.ts";
@@ -160,7 +161,7 @@ function drawScale(d: Drawing, spec: VectorSpec, v: View): void {
   const um = roundNumber(70 / px_per_um, false);
   const y = d.height - 8;
   d.svg.append(
-    s("text", { x: 4, y, fill: "var(--actual-ink)", "font-weight": "600" }, `arrows ${factor(spec.magnification)}`),
+    s("text", { x: 4, y, fill: "var(--actual-ink)", "font-weight": "600" }, tr`arrows ${factor(spec.magnification)}`),
     s("path", { d: arrowPath(120, y - 4, um * px_per_um, 0), fill: "none", stroke: "var(--ink)", "stroke-width": 1.4 }),
     s("text", { x: 126 + um * px_per_um, y, fill: "var(--ink)" }, withUnit(um, um < 1 ? 2 : 0, "µm")),
   );
@@ -184,9 +185,16 @@ export function vectors(host: HTMLElement, spec: VectorSpec): Figure<VectorSpec>
       const n = Math.floor(now.at_mm.length / 3);
       const column = (from: ArrayLike<number>, j: number): number[] =>
         Array.from({ length: n }, (_, i) => from[3 * i + j] as number);
-      const three = (name: string, unit: string, from: ArrayLike<number>) =>
-        ["X", "Y", "Z"].map((axis, j) => ({ heading: `${name} ${axis} (${unit})`, values: column(from, j) }));
-      return [...three("place", "mm", now.at_mm), ...now.sets.flatMap((set) => three(set.name, "µm", set.um))];
+      const three = (name: string, unit: string, from: ArrayLike<number>, shown = name) =>
+        ["X", "Y", "Z"].map((axis, j) => ({
+          heading: `${name} ${axis} (${unit})`,
+          shown: `${shown} ${axis} (${unit})`,
+          values: column(from, j),
+        }));
+      return [
+        ...three("place", "mm", now.at_mm, tr`place`),
+        ...now.sets.flatMap((set) => three(set.name, "µm", set.um)),
+      ];
     },
     height: (width) => now.height ?? Math.min(430, Math.max(260, 0.6 * width)),
   }));

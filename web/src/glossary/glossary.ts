@@ -1,5 +1,6 @@
 /** The glossary of error names: opened from every name on the page. */
 
+import { tr } from "../words/index.ts";
 import { dialog } from "../dialog.ts";
 import { h, type Child } from "../dom.ts";
 import { errorDrawing } from "./drawing.ts";
@@ -9,7 +10,6 @@ import { readOf, textOf } from "./texts.ts";
 const AXES = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W", "w", "t"];
 
 const over = dialog("glossary");
-over.element.lang = "en";
 
 /** Explains a name; one that is none opens the first. */
 export function explain(name: string): void {
@@ -18,11 +18,11 @@ export function explain(name: string): void {
   const words = textOf(error);
   const choice = h(
     "select",
-    { ariaLabel: "Name of the error", dataTest: "glossary-name", onchange: () => explain(choice.value) },
+    { ariaLabel: tr`Name of the error`, dataTest: "glossary-name", onchange: () => explain(choice.value) },
     AXES.map((axis) =>
       h(
         "optgroup",
-        { label: axis === "w" ? "Workpiece w" : axis === "t" ? "Tool t" : `Axis ${axis}` },
+        { label: axis === "w" ? tr`Workpiece w` : axis === "t" ? tr`Tool t` : tr`Axis ${axis}` },
         namesOf(axis).map((one) => h("option", { value: one }, one)),
       ),
     ),
@@ -40,18 +40,18 @@ export function explain(name: string): void {
       h(
         "dl",
         {},
-        row("What", words.what),
-        row("Kind", words.kind),
-        row("Unit", words.unit),
-        row("Sign", "actual − nominal. ", words.sign),
-        row("At the tool", words.carries),
-        row("Seen by", words.instruments),
+        row(tr`What`, words.what),
+        row(tr`Kind`, words.kind),
+        row(tr`Unit`, words.unit),
+        row(tr`Sign`, tr`actual − nominal. `, words.sign),
+        row(tr`At the tool`, words.carries),
+        row(tr`Seen by`, words.instruments),
       ),
     ),
     h(
       "p",
       { class: "hint" },
-      "Dashed: nominal. Filled: actual. The directions are those of the machine axes; ISO 230-1, docs/conventions.md.",
+      tr`Dashed: nominal. Filled: actual. The directions are those of the machine axes; ISO 230-1, docs/conventions.md.`,
     ),
   );
   if (focused) choice.focus();

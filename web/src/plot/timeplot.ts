@@ -1,5 +1,6 @@
 /** Time series on uPlot: stacked plots with one cursor and one zoom, limits, min/max envelopes. */
 
+import { tr } from "../words/index.ts";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { h, perFrame } from "../dom.ts";
@@ -163,15 +164,23 @@ class TimePlotView implements TimePlot {
   }
 
   private columns(): Column[] {
-    const { series, unit, time_s } = this.spec;
+    const { series, unit, time_s, time_unit = "s" } = this.spec;
     return [
-      { heading: `time (${this.spec.time_unit ?? "s"})`, values: time_s },
+      { heading: `time (${time_unit})`, shown: tr`time (${time_unit})`, values: time_s },
       ...series.flatMap((one) => [
         { heading: `${one.name} (${unit})`, values: one.values },
         ...(one.low && one.high
           ? [
-              { heading: `${one.name} least (${unit})`, values: one.low },
-              { heading: `${one.name} greatest (${unit})`, values: one.high },
+              {
+                heading: `${one.name} least (${unit})`,
+                shown: tr`${one.name} least (${unit})`,
+                values: one.low,
+              },
+              {
+                heading: `${one.name} greatest (${unit})`,
+                shown: tr`${one.name} greatest (${unit})`,
+                values: one.high,
+              },
             ]
           : []),
       ]),
@@ -191,7 +200,7 @@ class TimePlotView implements TimePlot {
     this.title.textContent = this.spec.title;
     this.place.setAttribute(
       "aria-label",
-      `${this.spec.title}, ${this.spec.unit}, over time. Arrow keys move the cursor, Enter goes there, plus and minus zoom.`,
+      tr`${this.spec.title}, ${this.spec.unit}, over time. Arrow keys move the cursor, Enter goes there, plus and minus zoom.`,
     );
     this.plot = new uPlot(this.config(), dataOf(this.spec), this.place);
     if (this.range) this.zoom(this.range);
@@ -201,7 +210,7 @@ class TimePlotView implements TimePlot {
     const ink = cssColour("--muted");
     const line = cssColour("--line");
     const { group } = this.options;
-    const series: uPlot.Series[] = [{ label: "time" }];
+    const series: uPlot.Series[] = [{ label: tr`time` }];
     const bands: uPlot.Band[] = [];
     this.spec.series.forEach((one, i) => {
       const colour = cssColour(`--series-${((one.colour ?? i) % 7) + 1}`);

@@ -1,5 +1,6 @@
 /** From where the scene is seen: two cameras, the mouse and the keys that move them, the buttons over the picture. */
 
+import { tr } from "../words/index.ts";
 import { Box3, OrthographicCamera, PerspectiveCamera, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { h } from "../dom.ts";
@@ -8,10 +9,10 @@ type ViewName = "iso" | "x" | "y" | "z";
 
 /** From where each view looks. */
 const VIEWS: Record<ViewName, { from: [number, number, number]; label: string; title: string }> = {
-  iso: { from: [-0.62, -1, 0.62], label: "Iso", title: "Iso: look from the front, left, above (0)" },
-  x: { from: [1, 0, 0.0001], label: "X", title: "X: look along X (1)" },
-  y: { from: [0, -1, 0.0001], label: "Y", title: "Y: look along Y, from the front (2)" },
-  z: { from: [0, -0.0001, 1], label: "Z", title: "Z: look along Z, from above (3)" },
+  iso: { from: [-0.62, -1, 0.62], label: tr`Iso`, title: tr`Iso: look from the front, left, above (0)` },
+  x: { from: [1, 0, 0.0001], label: "X", title: tr`X: look along X (1)` },
+  y: { from: [0, -1, 0.0001], label: "Y", title: tr`Y: look along Y, from the front (2)` },
+  z: { from: [0, -0.0001, 1], label: "Z", title: tr`Z: look along Z, from above (3)` },
 };
 
 const KEYS: Record<string, ViewName> = { "0": "iso", "1": "x", "2": "y", "3": "z" };
@@ -47,8 +48,12 @@ export class ViewCamera {
   private readonly seen: Seen;
   private readonly parallel = h(
     "button",
-    { onclick: () => this.chosen(() => this.toggleParallel()), ariaPressed: "false", title: "Parallel projection (5)" },
-    "Parallel",
+    {
+      onclick: () => this.chosen(() => this.toggleParallel()),
+      ariaPressed: "false",
+      title: tr`Parallel projection (5)`,
+    },
+    tr`Parallel`,
   );
 
   constructor(seen: Seen) {
@@ -66,11 +71,11 @@ export class ViewCamera {
         VIEWS[name].label,
       ),
     );
-    const fit = h("button", { title: "Show everything (4)", onclick: () => this.chosen(() => this.fit()) }, "Fit");
+    const fit = h("button", { title: tr`Show everything (4)`, onclick: () => this.chosen(() => this.fit()) }, tr`Fit`);
     this.buttons = h(
       "div",
       { class: "scene-tools" },
-      h("div", { class: "group", role: "group", ariaLabel: "View" }, views),
+      h("div", { class: "group", role: "group", ariaLabel: tr`View` }, views),
       h("div", { class: "group" }, fit, this.parallel),
     );
   }
@@ -85,7 +90,7 @@ export class ViewCamera {
     canvas.setAttribute("role", "img");
     canvas.setAttribute(
       "aria-label",
-      "Machine in three dimensions. Arrow keys turn, Shift and arrow keys move, plus and minus zoom, 0 to 3 choose a view.",
+      tr`Machine in three dimensions. Arrow keys turn, Shift and arrow keys move, plus and minus zoom, 0 to 3 choose a view.`,
     );
     canvas.addEventListener("keydown", (event) => this.key(event));
     this.controls = new OrbitControls(this.current, canvas);

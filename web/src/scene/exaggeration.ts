@@ -1,5 +1,6 @@
 /** How much larger deviations are drawn: a slider ×1 … ×50 000 with the factor always printed, and the ghost on or off. */
 
+import { tr } from "../words/index.ts";
 import { h } from "../dom.ts";
 import { factor } from "../format.ts";
 import type { MachineView } from "./view.ts";
@@ -35,7 +36,7 @@ export class Exaggeration {
       max: "100",
       step: "0.5",
       class: "exaggeration",
-      ariaLabel: "Exaggeration of the deviations",
+      ariaLabel: tr`Exaggeration of the deviations`,
       oninput: () => {
         this.set(factorOf(Number(this.slider.value)));
         changed();
@@ -52,7 +53,7 @@ export class Exaggeration {
     this.element = h(
       "div",
       { class: "scene-control" },
-      h("label", { class: "check" }, this.ghost, "actual machine"),
+      h("label", { class: "check" }, this.ghost, tr`actual machine`),
       this.slider,
       this.text,
     );

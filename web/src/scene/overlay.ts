@@ -1,5 +1,6 @@
 /** What stands over the picture as text: labels, axis triad, the factor, colour bar, buttons. */
 
+import { tr } from "../words/index.ts";
 import { Matrix4, Vector3, type Camera } from "three";
 import { h, s } from "../dom.ts";
 
@@ -17,7 +18,7 @@ export class Overlay {
     viewBox: "-40 -40 80 80",
     width: 84,
     height: 84,
-    "aria-label": "Directions of the machine axes",
+    "aria-label": tr`Directions of the machine axes`,
     role: "img",
   });
   private readonly notes = h("div", { class: "scene-notes" });

@@ -1,5 +1,6 @@
 /** Over the picture: how each body is drawn, a section, the distance of two points; a press on a body picks it. */
 
+import { tr } from "../words/index.ts";
 import { BufferGeometry, Line, LineBasicMaterial, type Mesh, Plane, Raycaster, Vector2, Vector3 } from "three";
 import { fill, h } from "../dom.ts";
 import { fixed, NARROW_SPACE } from "../format.ts";
@@ -9,9 +10,9 @@ import type { Overlay } from "./overlay.ts";
 import type { MachineView } from "./view.ts";
 
 const LOOKS: readonly [Look, string][] = [
-  ["solid", "solid"],
-  ["glass", "see-through"],
-  ["hidden", "hidden"],
+  ["solid", tr`solid`],
+  ["glass", tr`see-through`],
+  ["hidden", tr`hidden`],
 ];
 const AXES = ["X", "Y", "Z"] as const;
 /** A press that moved less is no turn of the picture, pixels. */
@@ -42,21 +43,21 @@ export class SceneTools {
       dataTest: "measure-distance",
       onclick: () => this.setMeasuring(!this.measuring),
     },
-    "Distance of two points",
+    tr`Distance of two points`,
   );
   private readonly result = h("output", { class: "scene-distance", dataTest: "distance" });
   private readonly axis = h(
     "select",
-    { ariaLabel: "Section across", dataTest: "section", onchange: () => this.section() },
-    h("option", { value: "" }, "no section"),
-    AXES.map((name) => h("option", { value: name }, `section across ${name}`)),
+    { ariaLabel: tr`Section across`, dataTest: "section", onchange: () => this.section() },
+    h("option", { value: "" }, tr`no section`),
+    AXES.map((name) => h("option", { value: name }, tr`section across ${name}`)),
   );
   private readonly place = h("input", {
     type: "range",
     min: "0",
     max: "1000",
     value: "500",
-    ariaLabel: "Place of the section",
+    ariaLabel: tr`Place of the section`,
     oninput: () => this.section(),
   });
   private readonly other = h("input", { type: "checkbox", onchange: () => this.section() });
@@ -73,9 +74,9 @@ export class SceneTools {
     const details = h(
       "details",
       { class: "scene-panel" },
-      h("summary", {}, "Bodies, section, distance"),
+      h("summary", {}, tr`Bodies, section, distance`),
       this.list,
-      h("div", { class: "row" }, this.axis, this.place, h("label", { class: "check" }, this.other, "other side")),
+      h("div", { class: "row" }, this.axis, this.place, h("label", { class: "check" }, this.other, tr`other side`)),
       h("div", { class: "row" }, this.measure, this.result),
     );
     details.addEventListener("toggle", () => details.open && this.draw());
@@ -150,7 +151,7 @@ export class SceneTools {
     this.measure.setAttribute("aria-pressed", String(on));
     this.points = [];
     this.drawLine();
-    this.result.textContent = on ? "Press on two points; a corner attracts. Esc ends." : "";
+    this.result.textContent = on ? tr`Press on two points; a corner attracts. Esc ends.` : "";
   }
 
   private addPoint(point: Vector3): void {
@@ -159,12 +160,12 @@ export class SceneTools {
     this.drawLine();
     const [from, to] = this.points;
     if (!from || !to) {
-      this.result.textContent = "the second point …";
+      this.result.textContent = tr`the second point …`;
       return;
     }
     const by = to.clone().sub(from);
     const parts = AXES.map((name, i) => `Δ${name} ${fixed(by.getComponent(i), 3)}`).join(", ");
-    this.result.textContent = `${fixed(by.length(), 3)}${NARROW_SPACE}mm (${parts}; machine frame)`;
+    this.result.textContent = tr`${fixed(by.length(), 3)}${NARROW_SPACE}mm (${parts}; machine frame)`;
   }
 
   private drawLine(): void {
@@ -197,8 +198,9 @@ export class SceneTools {
       const at = min.getComponent(i) + share * (max.getComponent(i) - min.getComponent(i));
       const sign = this.other.checked ? -1 : 1;
       this.plane = new Plane(new Vector3().setComponent(i, sign), -sign * at);
-      this.place.setAttribute("aria-valuetext", `${this.axis.value} = ${fixed(at, 1)} mm`);
-      this.place.title = `${this.axis.value} = ${fixed(at, 1)} mm`;
+      const text = `${this.axis.value} = ${fixed(at, 1)} mm`;
+      this.place.setAttribute("aria-valuetext", text);
+      this.place.title = text;
     }
     this.view.cut(this.plane);
   }
@@ -212,7 +214,7 @@ export class SceneTools {
         const look = h(
           "select",
           {
-            ariaLabel: `How ${titleOf(name)} is drawn`,
+            ariaLabel: tr`How ${titleOf(name)} is drawn`,
             dataBody: name,
             onchange: () => {
               this.bodies.setLook(name, look.value as Look);
@@ -229,5 +231,5 @@ export class SceneTools {
 }
 
 function titleOf(name: string): string {
-  return { b: "bed", w: "workpiece", t: "tool" }[name] ?? `axis ${name}`;
+  return { b: tr`bed`, w: tr`workpiece`, t: tr`tool` }[name] ?? tr`axis ${name}`;
 }

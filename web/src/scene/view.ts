@@ -1,5 +1,6 @@
 /** The machine in three dimensions: nominal solid, actual as a ghost, drawn only when something changed. */
 
+import { tr } from "../words/index.ts";
 import {
   AxesHelper,
   Box3,
@@ -74,7 +75,9 @@ export class MachineView {
   constructor(host: HTMLElement) {
     host.append(this.element);
     this.renderer = this.makeRenderer();
-    this.camera.buttons.append(h("button", { title: "Save the picture as PNG", onclick: () => this.savePng() }, "PNG"));
+    this.camera.buttons.append(
+      h("button", { title: tr`Save the picture as PNG`, onclick: () => this.savePng() }, "PNG"),
+    );
     this.element.append(this.overlay.element, this.camera.buttons, this.tools.element);
     this.scene.add(this.bodies.root, this.bodies.ghost_root, lights());
     new ResizeObserver(() => this.resize()).observe(this.element);
@@ -101,7 +104,7 @@ export class MachineView {
         h(
           "p",
           { class: "scene-failed" },
-          "This browser cannot draw in three dimensions (WebGL is off). All figures and tables work without it.",
+          tr`This browser cannot draw in three dimensions (WebGL is off). All figures and tables work without it.`,
         ),
       );
       return null;
@@ -220,7 +223,7 @@ export class MachineView {
     this.grid?.helper.dispose();
     this.grid = gridUnder(this.bounds());
     this.scene.add(this.grid.helper);
-    this.overlay.note("grid", `grid ${this.grid.step_mm} mm`);
+    this.overlay.note("grid", tr`grid ${this.grid.step_mm} mm`);
   }
 
   /** What the whole picture has to show. */
@@ -300,7 +303,7 @@ export class MachineView {
   private showGhost(): void {
     const seen = this.show_ghost && this.poses !== null;
     this.bodies.ghost_root.visible = seen;
-    const text = this.k === 1 ? "Actual machine: true size (×1)" : `Actual machine: deviations ${factor(this.k)}`;
+    const text = this.k === 1 ? tr`Actual machine: true size (×1)` : tr`Actual machine: deviations ${factor(this.k)}`;
     this.overlay.note("ghost", seen ? text : null, "actual");
     this.requestRender();
   }

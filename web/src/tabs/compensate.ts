@@ -1,10 +1,11 @@
 /** What must be commanded instead: a program, tables of a control, values of an axis, a path on a measured blank. */
 
+import { tr, trText } from "../words/index.ts";
 import { split, type App, type Tab, type TabHandle } from "../app.ts";
 import { fill, h } from "../dom.ts";
 import type { Figure } from "../figure/index.ts";
 import type { FileKind, Request } from "../api.ts";
-import { isAbort, Question, showRefusal } from "./measure/ask.ts";
+import { isAbort, Question, reportButton, showRefusal } from "./measure/ask.ts";
 import { downloadButton, filesPanel, saveForm, type Made } from "./measure/made.ts";
 import { headPanel, remarksPanel, sectionPanel, type Shown } from "./measure/shown.ts";
 import type { Choice, Of } from "./compensate/documents.ts";
@@ -38,7 +39,7 @@ const NOTHING: Choice = {
   options: [],
 };
 
-/** Sections of the report of tables that the page shows in its own way. */
+/** Sections of the report of tables that the page shows in its own way, by their titles from the server. */
 const TABLES_DRAWN = ["Tool tip over the travel of all axes", "Represented", "Not represented, each alone, at the tip"];
 
 class CompensateTab implements TabHandle {
@@ -155,16 +156,16 @@ class CompensateTab implements TabHandle {
   private say(words: string): void {
     this.clear();
     fill(this.result, h("section", { class: "panel" }, h("p", {}, words)));
-    fill(this.pictures, h("p", { class: "empty" }, "The deviations before and after are drawn here."));
+    fill(this.pictures, h("p", { class: "empty" }, tr`The deviations before and after are drawn here.`));
   }
 
   // ---- asking ----
 
   private missing(): string | null {
     const { of, machine, program, study } = this.choice;
-    if (of === "blank") return study ? null : "Choose a study: it names the path, the measured blank and the cutter.";
-    if (!machine) return "Choose a machine file: its errors are what is compensated.";
-    if (of === "program" && !program) return "Choose an NC program of the folder.";
+    if (of === "blank") return study ? null : tr`Choose a study: it names the path, the measured blank and the cutter.`;
+    if (!machine) return tr`Choose a machine file: its errors are what is compensated.`;
+    if (of === "program" && !program) return tr`Choose an NC program of the folder.`;
     return null;
   }
 
@@ -183,7 +184,7 @@ class CompensateTab implements TabHandle {
     if (asked === this.asked) return;
     this.asked = asked;
     this.stop();
-    this.say("Working out the compensation, and proving it …");
+    this.say(tr`Working out the compensation, and proving it …`);
     try {
       await this.prepare();
       if (this.asked !== asked) return;
@@ -224,6 +225,14 @@ class CompensateTab implements TabHandle {
     return this.choice.options.includes(option);
   }
 
+  /** The way to the report of what was asked: with the same options, without the files that it names itself. */
+  private reported(verb: string, files: { file: string | null; machine?: string | null }, body: object): void {
+    const named = new Set<unknown>(Object.values(files));
+    const options = Object.fromEntries(Object.entries(body).filter(([, value]) => !named.has(value)));
+    const button = reportButton(this.app, { verb, ...files, with: JSON.stringify(options) });
+    if (button) this.head.append(h("div", { class: "row" }, button));
+  }
+
   private async ask(asked: string): Promise<void> {
     const { of, machine, program, study, target, axis, at, step, setup, control, temperature, residual } = this.choice;
     const warm = {
@@ -243,7 +252,8 @@ class CompensateTab implements TabHandle {
         ...(this.on("position-only") ? { position_only: true } : {}),
         ...(this.on("keep-unproved") ? { keep_unproved: true } : {}),
       };
-      const frame = await this.questions.program.ask(body, `compensating ${program}`);
+      this.reported("compensate-program", { file: program, machine }, body);
+      const frame = await this.questions.program.ask(body, tr`compensating ${program}`);
       if (!fresh()) return;
       const { header } = frame;
       this.begin(header.shown, [
@@ -262,20 +272,21 @@ class CompensateTab implements TabHandle {
         ...(at ? { at } : {}),
         ...(this.on("no-kinematics") ? { no_kinematics: true } : {}),
       };
-      const reply = await this.questions.tables.ask(body, `tables of ${machine}`);
+      this.reported("compensate-tables", { file: machine }, body);
+      const reply = await this.questions.tables.ask(body, tr`tables of ${machine}`);
       if (!fresh()) return;
       this.begin({ ...reply.shown, verdict: tablesVerdict(reply) }, [
         leftTable(reply),
-        filesPanel(this.app, reply.made, "Files for the control", "Nothing is written before you download a file."),
+        filesPanel(this.app, reply.made, tr`Files for the control`, tr`Nothing is written before you download a file.`),
         reply.document.notes.length > 0
           ? h(
               "section",
               { class: "panel" },
-              h("h2", {}, "At the control"),
+              h("h2", {}, tr`At the control`),
               h(
                 "ul",
                 { class: "remarks" },
-                reply.document.notes.map((note) => h("li", {}, note)),
+                reply.document.notes.map((note) => h("li", {}, trText(note))),
               ),
             )
           : null,
@@ -285,25 +296,26 @@ class CompensateTab implements TabHandle {
       this.end(reply.diagnostics);
     } else if (of === "values") {
       const body = { ...warm, axis, ...(at ? { at } : {}), ...(step ? { step } : {}) };
-      const reply = await this.questions.values.ask(body, `values of ${axis}`);
+      const reply = await this.questions.values.ask(body, tr`values of ${axis}`);
       if (!fresh()) return;
       this.begin(reply.shown, [
-        filesPanel(this.app, reply.made, "The values as a file", "CSV with units in its headings."),
+        filesPanel(this.app, reply.made, tr`The values as a file`, tr`CSV with units in its headings.`),
       ]);
       this.draw(valuesPanel(reply));
       this.sections(reply.shown, []);
       this.end(reply.diagnostics);
     } else {
       const body = { study: study ?? "", ...(control ? { control } : {}) };
-      const reply = await this.questions.blank.ask(body, `adapting the path of ${study}`);
+      this.reported("compensate-adapt", { file: study }, body);
+      const reply = await this.questions.blank.ask(body, tr`adapting the path of ${study}`);
       if (!fresh()) return;
       const files =
         reply.made.files.length > 0
-          ? filesPanel(this.app, reply.made, "The adapted path", "Nothing is written before you download a file.")
+          ? filesPanel(this.app, reply.made, tr`The adapted path`, tr`Nothing is written before you download a file.`)
           : h(
               "section",
               { class: "panel" },
-              h("p", { class: "unsound" }, "The adapted path must not be cut: no file."),
+              h("p", { class: "unsound" }, tr`The adapted path must not be cut: no file.`),
             );
       this.begin(reply.shown, [files]);
       this.draw(wallPanel(reply));
@@ -336,7 +348,7 @@ class CompensateTab implements TabHandle {
     const remarks = remarksPanel(diagnostics);
     if (remarks) this.result.append(remarks);
     if (this.pictures.childElementCount === 0)
-      this.pictures.append(h("p", { class: "empty" }, "The figures are in the tables on the right."));
+      this.pictures.append(h("p", { class: "empty" }, tr`The figures are in the tables on the right.`));
   }
 
   /** Where the compensated program goes: to this computer's downloads, or into the project, to be simulated. */
@@ -345,17 +357,17 @@ class CompensateTab implements TabHandle {
     const saved = (path: string): void =>
       fill(
         then,
-        h("button", { class: "primary", dataTest: "simulate", onclick: () => this.simulate(path) }, "Simulate it"),
+        h("button", { class: "primary", dataTest: "simulate", onclick: () => this.simulate(path) }, tr`Simulate it`),
       );
     return h(
       "section",
       { class: "panel", dataTest: "program-file" },
-      h("div", { class: "panel-head" }, h("h2", {}, "The compensated program"), downloadButton(this.app, made, 0)),
+      h("div", { class: "panel-head" }, h("h2", {}, tr`The compensated program`), downloadButton(this.app, made, 0)),
       saveForm(this.app, made, 0, saved),
       h(
         "p",
         { class: "muted note" },
-        "A file that is there is replaced only if TrueAxis wrote it and it was not edited since. To simulate the program, save it first.",
+        tr`A file that is there is replaced only if TrueAxis wrote it and it was not edited since. To simulate the program, save it first.`,
       ),
       then,
     );
@@ -372,10 +384,9 @@ class CompensateTab implements TabHandle {
   private advice(error: unknown): HTMLElement | undefined {
     const code = (error as { code?: string }).code;
     const words: Partial<Record<string, string>> = {
-      "no-workpiece-temperature":
-        "State the temperatures above, or tick “machine alone, without a part” where no part is cut, such as for a check with a laser.",
-      "unknown-control": "Choose the control above.",
-      "already-compensated": "Choose the program as the postprocessor wrote it.",
+      "no-workpiece-temperature": tr`State the temperatures above, or tick “machine alone, without a part” where no part is cut, such as for a check with a laser.`,
+      "unknown-control": tr`Choose the control above.`,
+      "already-compensated": tr`Choose the program as the postprocessor wrote it.`,
     };
     const text = code ? words[code] : undefined;
     return text ? h("p", { class: "note" }, text) : undefined;
@@ -384,6 +395,6 @@ class CompensateTab implements TabHandle {
 
 export type { Of };
 export const compensate: Tab = {
-  title: "Compensate",
+  title: tr`Compensate`,
   mount: (host, app) => new CompensateTab(host, app),
 };

@@ -1,5 +1,6 @@
 /** What the machine is like, from readings: verdict, errors with their uncertainty, residuals. */
 
+import { tr, trText } from "../words/index.ts";
 import { split, type App, type Tab, type TabHandle } from "../app.ts";
 import type { Params } from "../address.ts";
 import { Refusal } from "../api.ts";
@@ -51,7 +52,7 @@ class IdentifyTab implements TabHandle {
     left.append(pictures);
     this.residuals = new Residuals(pictures);
     pictures.append(this.map);
-    this.open_file = dropOn(host, app, "Open readings …", (file) => this.take(file));
+    this.open_file = dropOn(host, app, tr`Open readings …`, (file) => this.take(file));
     this.clear();
     fill(right, this.head, this.result);
   }
@@ -82,7 +83,11 @@ class IdentifyTab implements TabHandle {
       if (campaign !== this.campaign) return;
       if (!this.dropped)
         this.app.fail(
-          new Refusal("dropped-file", `${params.dropped} is not kept by this browser any more`, "Drop it here again."),
+          new Refusal(
+            "dropped-file",
+            tr`${params.dropped} is not kept by this browser any more`,
+            tr`Drop it here again.`,
+          ),
         );
     }
     if (params.instrument) this.instrument = params.instrument;
@@ -124,7 +129,7 @@ class IdentifyTab implements TabHandle {
           h(
             "p",
             {},
-            "Choose a campaign: it names the machine, the unknown errors and the readings of its instruments.",
+            tr`Choose a campaign: it names the machine, the unknown errors and the readings of its instruments.`,
           ),
         ),
       );
@@ -137,7 +142,7 @@ class IdentifyTab implements TabHandle {
         h(
           "section",
           { class: "panel" },
-          h("p", {}, `Which instrument are the readings in ${this.dropped.name} of? Choose it above.`),
+          h("p", {}, tr`Which instrument are the readings in ${this.dropped.name} of? Choose it above.`),
         ),
       );
       return;
@@ -163,11 +168,11 @@ class IdentifyTab implements TabHandle {
         h(
           "section",
           { class: "panel muted" },
-          "Fitting the errors to the readings, and checking them on readings held out …",
+          tr`Fitting the errors to the readings, and checking them on readings held out …`,
         ),
       );
     try {
-      this.show(await this.question.ask(body, `identifying from ${this.dropped?.name ?? this.campaign}`));
+      this.show(await this.question.ask(body, tr`identifying from ${this.dropped?.name ?? this.campaign}`));
     } catch (error) {
       if (this.asked === asked) this.asked = "";
       if (isAbort(error)) return;
@@ -180,7 +185,7 @@ class IdentifyTab implements TabHandle {
           : h(
               "p",
               { class: "note" },
-              "A CSV of readings that is dropped anywhere on this page is used with this campaign.",
+              tr`A CSV of readings that is dropped anywhere on this page is used with this campaign.`,
             ),
       );
     }
@@ -199,7 +204,7 @@ class IdentifyTab implements TabHandle {
   private showForm(): void {
     const campaigns = fileSelect(
       this.app,
-      "Campaign",
+      tr`Campaign`,
       "identify",
       (file) => file.kind === "campaign",
       this.campaign,
@@ -210,7 +215,7 @@ class IdentifyTab implements TabHandle {
       h(
         "div",
         { class: "row" },
-        h("label", { class: "field grow" }, h("span", {}, "Campaign"), campaigns),
+        h("label", { class: "field grow" }, h("span", {}, tr`Campaign`), campaigns),
         this.open_file,
         reportButton(this.app, { verb: "identify", file: this.dropped ? null : this.campaign }),
       ),
@@ -227,16 +232,16 @@ class IdentifyTab implements TabHandle {
         "p",
         { class: "muted note" },
         this.instruments
-          .map((one) => `${one.name} (${one.kind}): ${one.tables.join(", ") || "no readings"}`)
+          .map((one) => `${one.name} (${trText(one.kind)}): ${one.tables.join(", ") || tr`no readings`}`)
           .join(" · "),
       );
     }
-    const back = h("button", { onclick: () => this.forget() }, "Readings of the campaign");
+    const back = h("button", { onclick: () => this.forget() }, tr`Readings of the campaign`);
     return h(
       "div",
       { class: "row" },
       h("strong", {}, dropped.name),
-      h("span", { class: "muted" }, "instead of the readings of"),
+      h("span", { class: "muted" }, tr`instead of the readings of`),
       this.instrumentField(),
       back,
     );
@@ -251,8 +256,8 @@ class IdentifyTab implements TabHandle {
         type: "text",
         class: "short",
         value: this.instrument ?? "",
-        placeholder: "instrument, if there are several",
-        ariaLabel: "Instrument of the dropped readings",
+        placeholder: tr`instrument, if there are several`,
+        ariaLabel: tr`Instrument of the dropped readings`,
         onchange: () => this.choose(name.value.trim()),
       });
       return name;
@@ -260,12 +265,12 @@ class IdentifyTab implements TabHandle {
     const of = h(
       "select",
       {
-        ariaLabel: "Instrument of the dropped readings",
+        ariaLabel: tr`Instrument of the dropped readings`,
         dataTest: "instrument",
         onchange: () => this.choose(of.value),
       },
-      h("option", { value: "", disabled: true }, "of which instrument? …"),
-      known.map((one) => h("option", { value: one.name }, `${one.name} (${one.kind})`)),
+      h("option", { value: "", disabled: true }, tr`of which instrument? …`),
+      known.map((one) => h("option", { value: one.name }, `${one.name} (${trText(one.kind)})`)),
     );
     of.value = this.instrument ?? "";
     return of;
@@ -297,19 +302,19 @@ class IdentifyTab implements TabHandle {
     if (document.errors.length > 0)
       this.add(
         foundPanel(
-          "Errors of the machine",
+          tr`Errors of the machine`,
           document.errors,
-          "Bars: value; whiskers: ± 2u, about 95 %. Grey: not significantly different from zero (|z| below 2).",
+          tr`Bars: value; whiskers: ± 2u, about 95 %. Grey: not significantly different from zero (|z| below 2).`,
         ),
       );
-    this.result.append(confoundedPanel(document.unobservable, "All unknowns are observable with these readings."));
+    this.result.append(confoundedPanel(document.unobservable, tr`All unknowns are observable with these readings.`));
     if (document.errors.length > 0) this.result.append(this.savePanel(header));
     if (document.setup.length > 0)
       this.add(
         foundPanel(
-          "Set-up",
+          tr`Set-up`,
           document.setup,
-          "Where balls, sockets and optics really sat: found along with the errors, of no interest afterwards.",
+          tr`Where balls, sockets and optics really sat: found along with the errors, of no interest afterwards.`,
         ),
       );
     this.result.append(outlierPanel(document), sheetTable(valueSheet(document)));
@@ -323,13 +328,13 @@ class IdentifyTab implements TabHandle {
 
   private showCorrelation(names: string[], values: Float64Array): void {
     const spec: HeatmapSpec = {
-      title: "Correlation of what was identified",
+      title: tr`Correlation of what was identified`,
       rows: names,
       columns: names,
       values,
       range: [-1, 1],
       digits: 3,
-      blank: "not observable",
+      blank: tr`not observable`,
     };
     this.map.hidden = names.length === 0;
     if (this.heat) this.heat.update(spec);
@@ -342,7 +347,7 @@ class IdentifyTab implements TabHandle {
       this.pairs,
       strong.length > 0
         ? strong.map(({ words }) => h("li", {}, words))
-        : h("li", { class: "muted" }, "No two unknowns are correlated by more than 0.9."),
+        : h("li", { class: "muted" }, tr`No two unknowns are correlated by more than 0.9.`),
     );
   }
 
@@ -353,40 +358,42 @@ class IdentifyTab implements TabHandle {
       return h(
         "section",
         { class: "panel" },
-        h("h2", {}, "The identified machine"),
-        h("p", {}, "No machine file is offered: these readings do not support one."),
+        h("h2", {}, tr`The identified machine`),
+        h("p", {}, tr`No machine file is offered: these readings do not support one.`),
       );
     const save = (): void => {
       download(name, file.text);
       for (const table of file.tables) download(table.name.replace(/^.*\//, ""), table.text, "text/csv");
     };
-    const tables = file.tables.length > 0 ? ` and ${file.tables.map((table) => table.name).join(", ")}` : "";
+    const tables = file.tables.map((table) => table.name).join(", ");
     return h(
       "section",
       { class: "panel" },
       h(
         "div",
         { class: "panel-head" },
-        h("h2", {}, "The identified machine"),
-        h("button", { class: "primary", dataTest: "save-machine", onclick: save }, "Save the identified machine"),
+        h("h2", {}, tr`The identified machine`),
+        h("button", { class: "primary", dataTest: "save-machine", onclick: save }, tr`Save the identified machine`),
       ),
       h(
         "p",
         { class: "muted" },
-        `${name}${tables}: ${header.machine} with the errors found here in place of its own, each with its uncertainty.`,
+        tables
+          ? tr`${name} and ${tables}: ${header.machine} with the errors found here in place of its own, each with its uncertainty.`
+          : tr`${name}: ${header.machine} with the errors found here in place of its own, each with its uncertainty.`,
       ),
       header.document.verdict.good
         ? null
         : h(
             "p",
             { class: "unsound" },
-            "The verdict is not good: something that these errors do not describe is left in the readings.",
+            tr`The verdict is not good: something that these errors do not describe is left in the readings.`,
           ),
     );
   }
 }
 
 export const identify: Tab = {
-  title: "Identify",
+  title: tr`Identify`,
   mount: (host, app) => new IdentifyTab(host, app),
 };

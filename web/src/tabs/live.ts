@@ -1,10 +1,11 @@
 /** What a live run is doing: state and reason, offsets against their limits, sensors with their age, the last hours. */
 
+import { tr } from "../words/index.ts";
 import type { ServeLive, ServeLiveDiagnosed } from "../../types.d.ts";
 import { diagnosticList, type App, type Tab, type TabHandle } from "../app.ts";
 import { fill, h } from "../dom.ts";
-import { ago } from "./live/words.ts";
-import { axesPanel, eventsPanel, sensorsPanel, stateOf, tilesOf } from "./live/panels.ts";
+import { ago, compensated, said } from "./live/words.ts";
+import { axesPanel, eventsPanel, sensorsPanel, stateOf, stateWord, tilesOf } from "./live/panels.ts";
 import { Shift } from "./live/shift.ts";
 import { fileSelect, showRefusal } from "./measure/ask.ts";
 
@@ -51,7 +52,7 @@ class LiveTab implements TabHandle {
     this.asked = 0;
     if (!plan) {
       fill(this.more);
-      fill(this.now, h("p", { class: "empty" }, "Choose the plan of a live run above. It is started in a terminal."));
+      fill(this.now, h("p", { class: "empty" }, tr`Choose the plan of a live run above. It is started in a terminal.`));
       return;
     }
     void this.look();
@@ -75,7 +76,7 @@ class LiveTab implements TabHandle {
   private showForm(): void {
     const select = fileSelect(
       this.app,
-      "Plan of the run",
+      tr`Plan of the run`,
       "live",
       (file) => file.kind === "live",
       this.plan,
@@ -84,7 +85,7 @@ class LiveTab implements TabHandle {
     const hours = h(
       "select",
       {
-        ariaLabel: "Hours that are shown",
+        ariaLabel: tr`Hours that are shown`,
         onchange: () => this.app.go("live", { plan: this.plan, hours: hours.value }),
       },
       HOURS.map((n) => h("option", { value: String(n) }, `${n} h`)),
@@ -95,8 +96,8 @@ class LiveTab implements TabHandle {
       h(
         "div",
         { class: "row" },
-        h("label", { class: "field grow" }, h("span", {}, "Plan"), select),
-        h("label", { class: "field" }, h("span", {}, "The last"), hours),
+        h("label", { class: "field grow" }, h("span", {}, tr`Plan of the run`), select),
+        h("label", { class: "field" }, h("span", {}, tr`The last`), hours),
       ),
     );
   }
@@ -132,30 +133,34 @@ class LiveTab implements TabHandle {
     );
     fill(this.more, last ? [sensorsPanel(last), eventsPanel(document.events, now_s)] : null);
     if (withHistory) this.shift.show(document.history ?? null);
-    this.app.say(`${document.name}: ${document.running ? (last?.state ?? "starting") : "not running"}`);
+    this.app.say(
+      `${document.name}: ${document.running ? (last ? stateWord(last.state) : tr`starting`) : tr`not running`}`,
+    );
   }
 
   private stateBar(document: ServeLiveDiagnosed, now_s: number): HTMLElement {
     const { last, running, name } = document;
+    const command = `trueaxis live ${this.plan}`;
     if (!last)
       return h(
         "section",
         { class: "panel live-state", dataState: "none" },
-        h("h1", {}, name),
-        h("p", { class: "live-word", dataTest: "state" }, "It has not run here"),
-        h("p", { class: "muted" }, "Start it in a terminal: ", h("code", {}, `trueaxis live ${this.plan}`)),
+        h("h1", { dataOwn: "" }, name),
+        h("p", { class: "live-word", dataTest: "state" }, tr`It has not run here`),
+        h("p", { class: "muted" }, tr`Start it in a terminal: `, h("code", {}, command)),
       );
     const { tone, word } = stateOf(last, running);
+    const since = ago(now_s - last.date_s);
     return h(
       "section",
       { class: `panel live-state ${tone}`, dataState: last.state },
-      h("h1", {}, name),
+      h("h1", { dataOwn: "" }, name),
       h("p", { class: "live-word", dataTest: "state" }, word),
-      h("p", { class: "live-reason", dataTest: "reason" }, last.reason),
+      h("p", { class: "live-reason", dataTest: "reason" }, said(last.reason)),
       h(
         "p",
         { class: "muted" },
-        `${last.control.join(" ")} · ${last.of} · as of ${ago(now_s - last.date_s)}${running ? "" : ", when it ended"}`,
+        `${last.control.join(" ")} · ${compensated(last.of)} · ${running ? tr`as of ${since}` : tr`as of ${since}, when it ended`}`,
       ),
       tilesOf(last),
     );
@@ -163,6 +168,6 @@ class LiveTab implements TabHandle {
 }
 
 export const live: Tab = {
-  title: "Live",
+  title: tr`Live`,
   mount: (host, app) => new LiveTab(host, app),
 };

@@ -1,5 +1,7 @@
 /** A campaign while it is measured: stations, readings, how well they repeat; or a machine that is not there. */
 
+import { told } from "../words/told.ts";
+import { tr, trText } from "../words/index.ts";
 import type { ServeMeasure, ServeMeasureCheck, ServeMeasureSheet } from "../../types.d.ts";
 import { diagnosticList, split, type App, type Tab, type TabHandle } from "../app.ts";
 import { latestOnly, Refusal, type Request } from "../api.ts";
@@ -11,7 +13,7 @@ import { Sheet } from "./measure/sheet.ts";
 import { SheetView } from "./measure/sheetview.ts";
 import { headPanel, remarksPanel, sectionPanel } from "./measure/shown.ts";
 import { sheetTable } from "./measure/table.ts";
-import { count, unitText } from "./measure/words.ts";
+import { count, refusalWords, unitText } from "./measure/words.ts";
 
 type CheckBody = Request<"measure-check">;
 
@@ -56,7 +58,7 @@ class MeasureTab implements TabHandle {
     const { left, right } = split(host, "measure", 0.6);
     const scroll = h("div", { class: "scroll" }, this.sheet_head, this.view.element);
     left.append(scroll);
-    this.open_file = dropOn(host, app, "Open readings …", (file) => this.take(file));
+    this.open_file = dropOn(host, app, tr`Open readings …`, (file) => this.take(file));
     fill(right, this.head, this.side, this.progress, this.repeats, this.saving, this.virtual_form, this.virtual);
   }
 
@@ -98,7 +100,7 @@ class MeasureTab implements TabHandle {
   private showForm(): void {
     const campaigns = fileSelect(
       this.app,
-      "Campaign",
+      tr`Campaign`,
       "measure",
       (file) => file.kind === "campaign",
       this.campaign,
@@ -107,17 +109,17 @@ class MeasureTab implements TabHandle {
     const plan = h(
       "button",
       {
-        title: "The stations on the machine, and the programs",
+        title: tr`The stations on the machine, and the programs`,
         onclick: () => this.app.go("plan", { campaign: this.campaign }),
       },
-      "Plan",
+      tr`Plan`,
     );
     fill(
       this.head,
       h(
         "div",
         { class: "row" },
-        h("label", { class: "field grow" }, h("span", {}, "Campaign"), campaigns),
+        h("label", { class: "field grow" }, h("span", {}, tr`Campaign`), campaigns),
         this.open_file,
         this.campaign ? plan : null,
       ),
@@ -136,16 +138,16 @@ class MeasureTab implements TabHandle {
     const { campaign } = this;
     if (!campaign) {
       this.clear();
-      const words = "Choose a campaign: it names the machine, the instruments and the paths with their stations.";
+      const words = tr`Choose a campaign: it names the machine, the instruments and the paths with their stations.`;
       fill(this.side, h("section", { class: "panel" }, h("p", {}, words)));
       return;
     }
     if (this.asked !== campaign) {
       this.asked = campaign;
       this.clear();
-      fill(this.side, h("section", { class: "panel muted" }, "Working out the stations …"));
+      fill(this.side, h("section", { class: "panel muted" }, tr`Working out the stations …`));
       try {
-        const answer = await this.sheets_question.ask({ campaign }, `stations of ${campaign}`);
+        const answer = await this.sheets_question.ask({ campaign }, tr`stations of ${campaign}`);
         if (this.asked !== campaign) return;
         this.answer = answer;
       } catch (error) {
@@ -166,8 +168,8 @@ class MeasureTab implements TabHandle {
     return h(
       "p",
       { class: "row" },
-      "Are its readings taken already?",
-      h("button", { onclick: () => this.app.go("identify", { campaign: this.campaign }) }, "Open it in Identify"),
+      tr`Are its readings taken already?`,
+      h("button", { onclick: () => this.app.go("identify", { campaign: this.campaign }) }, tr`Open it in Identify`),
     );
   }
 
@@ -185,11 +187,11 @@ class MeasureTab implements TabHandle {
       h(
         "section",
         { class: "panel" },
-        h("h1", {}, answer.name),
+        h("h1", { dataOwn: true }, answer.name),
         h(
           "p",
           { class: "muted" },
-          `${answer.machine}: ${count(all, "station")} of ${count(answer.sheets.length, "instrument")}.`,
+          tr`${answer.machine}: ${count(all, "station")} of ${count(answer.sheets.length, "instrument")}.`,
         ),
       ),
       remarksPanel(answer.diagnostics),
@@ -203,16 +205,16 @@ class MeasureTab implements TabHandle {
           ? h(
               "label",
               { class: "field" },
-              h("span", {}, "Instrument"),
+              h("span", {}, tr`Instrument`),
               this.instrumentSelect(answer, header.instrument),
             )
-          : h("h2", {}, `${header.instrument} (${header.kind})`),
+          : h("h2", {}, `${header.instrument} (${trText(header.kind)})`),
         h(
           "button",
-          { dataTest: "again", title: "A second run repeats every station", onclick: () => this.again() },
-          "All stations again",
+          { dataTest: "again", title: tr`A second run repeats every station`, onclick: () => this.again() },
+          tr`All stations again`,
         ),
-        h("button", { dataTest: "clear", onclick: () => this.forget() }, "Clear"),
+        h("button", { dataTest: "clear", onclick: () => this.forget() }, tr`Clear`),
       ),
       h(
         "p",
@@ -222,7 +224,7 @@ class MeasureTab implements TabHandle {
       h(
         "p",
         { class: "muted note" },
-        "Positions in mm and degrees. Type the readings, with a point or a comma, or drop a CSV anywhere on this page (commas or semicolons); + takes one more reading in the same place.",
+        tr`Positions in mm and degrees. Type the readings, with a point or a comma, or drop a CSV anywhere on this page (commas or semicolons); + takes one more reading in the same place.`,
       ),
     );
     for (const panel of [this.sheet_head, this.progress, this.saving, this.virtual_form]) panel.hidden = false;
@@ -236,8 +238,8 @@ class MeasureTab implements TabHandle {
   private instrumentSelect(answer: ServeMeasureSheet, now: string): HTMLElement {
     const select = h(
       "select",
-      { ariaLabel: "Instrument", dataTest: "instrument", onchange: () => this.go({ instrument: select.value }) },
-      answer.sheets.map((one) => h("option", { value: one.instrument }, `${one.instrument} (${one.kind})`)),
+      { ariaLabel: tr`Instrument`, dataTest: "instrument", onchange: () => this.go({ instrument: select.value }) },
+      answer.sheets.map((one) => h("option", { value: one.instrument }, `${one.instrument} (${trText(one.kind)})`)),
     );
     select.value = now;
     return select;
@@ -285,7 +287,7 @@ class MeasureTab implements TabHandle {
   private forget(): void {
     const { sheet } = this;
     if (!sheet) return;
-    if (sheet.done > 0 && !window.confirm(`Clear ${count(sheet.done, "reading")} of ${sheet.header.instrument}?`))
+    if (sheet.done > 0 && !window.confirm(tr`Clear ${count(sheet.done, "reading")} of ${sheet.header.instrument}?`))
       return;
     sheet.clear();
     localStorage.removeItem(this.key(sheet));
@@ -296,7 +298,7 @@ class MeasureTab implements TabHandle {
   private take(file: TextFile): void {
     const { sheet } = this;
     if (!sheet) return;
-    const words = `Replace ${count(sheet.done, "reading")} of ${sheet.header.instrument} by those of ${file.name}?`;
+    const words = tr`Replace ${count(sheet.done, "reading")} of ${sheet.header.instrument} by those of ${file.name}?`;
     if (sheet.done > 0 && !window.confirm(words)) return;
     try {
       const unused = sheet.take(file.name, file.text);
@@ -317,19 +319,19 @@ class MeasureTab implements TabHandle {
     const bad = sheet.bad();
     fill(
       this.progress,
-      h("h2", {}, "Readings"),
+      h("h2", {}, tr`Readings`),
       h(
         "p",
         { class: "readings-progress" },
-        h("progress", { max: String(Math.max(1, all)), value: done, ariaLabel: "Readings taken" }),
-        h("strong", { dataTest: "done" }, `${done} of ${count(all, "reading")}`),
+        h("progress", { max: String(Math.max(1, all)), value: done, ariaLabel: tr`Readings taken` }),
+        h("strong", { dataTest: "done" }, all === 1 ? tr`${done} of 1 reading` : tr`${done} of ${all} readings`),
       ),
       bad.length > 0
         ? h(
             "ul",
             { class: "bad-cells", role: "alert" },
             bad.slice(0, 8).map((cell) => h("li", { class: "unsound" }, cell.words)),
-            bad.length > 8 ? h("li", { class: "muted" }, `and ${bad.length - 8} more`) : null,
+            bad.length > 8 ? h("li", { class: "muted" }, tr`and ${bad.length - 8} more`) : null,
           )
         : null,
     );
@@ -349,30 +351,34 @@ class MeasureTab implements TabHandle {
     if (reply.channels.length === 0) {
       const words =
         reply.repeated === 0
-          ? "No place has been read twice so far: the repeatability is not known. + at the end of a row takes one more reading there."
-          : "The reading of this instrument is where the axes stood: its repeatability is seen in Identify.";
+          ? tr`No place has been read twice so far: the repeatability is not known. + at the end of a row takes one more reading there.`
+          : tr`The reading of this instrument is where the axes stood: its repeatability is seen in Identify.`;
       fill(
         this.repeats,
-        h("section", { class: "panel" }, h("h2", {}, "Repeatability"), h("p", { class: "muted" }, words)),
+        h("section", { class: "panel" }, h("h2", {}, tr`Repeatability`), h("p", { class: "muted" }, words)),
       );
       return;
     }
     const unit = unitText(reply.channels[0]?.unit ?? "um");
+    const places =
+      reply.repeated === 1
+        ? tr`1 place of ${reply.places} read more than once`
+        : tr`${reply.repeated} places of ${reply.places} read more than once`;
     fill(
       this.repeats,
       sheetTable({
-        title: "Repeatability",
+        title: tr`Repeatability`,
         key: "repeats",
-        head: [
-          "channel",
-          `standard deviation s, ${unit}`,
-          "degrees of freedom",
-          `largest range, ${unit}`,
-          `noise stated, ${unit}`,
+        head: (tr) => [
+          tr`channel`,
+          tr`standard deviation s, ${unit}`,
+          tr`degrees of freedom`,
+          tr`largest range, ${unit}`,
+          tr`noise stated, ${unit}`,
         ],
         digits: [undefined, 3, 0, 3, 3],
         rows: reply.channels.map((one) => [one.channel, one.s, one.degrees_of_freedom, one.largest_range, one.stated]),
-        note: `${count(reply.repeated, "place")} of ${reply.places} read more than once; s from all of them together, n − 1 degrees of freedom in each.`,
+        note: tr`${places}; s from all of them together, n − 1 degrees of freedom in each.`,
       }),
       reply.diagnostics.length > 0 ? remarksPanel(reply.diagnostics) : null,
     );
@@ -385,10 +391,10 @@ class MeasureTab implements TabHandle {
       h(
         "section",
         { class: "panel refused", role: "alert" },
-        h("h2", {}, "These readings cannot be used yet"),
+        h("h2", {}, tr`These readings cannot be used yet`),
         refusal.diagnostics.length > 0
           ? diagnosticList(refusal.diagnostics.slice(0, 8))
-          : h("p", {}, refusal.message, h("span", { class: "hint" }, ` ${refusal.hint}`)),
+          : h("p", {}, told("span", {}, refusal.message), " ", told("span", { class: "hint" }, refusal.hint)),
       ),
     );
   }
@@ -404,13 +410,13 @@ class MeasureTab implements TabHandle {
       type: "text",
       class: "short",
       value: file,
-      ariaLabel: "Name of the readings in the project folder",
+      ariaLabel: tr`Name of the readings in the project folder`,
       dataTest: "save-name",
     });
     const identify = h(
       "button",
       { dataTest: "identify", onclick: () => this.identify(name.value.trim()) },
-      "Identify with these readings",
+      tr`Identify with these readings`,
     );
     const submit = (event: Event): void => {
       event.preventDefault();
@@ -418,12 +424,12 @@ class MeasureTab implements TabHandle {
     };
     fill(
       this.saving,
-      h("h2", {}, "Into the project"),
+      h("h2", {}, tr`Into the project`),
       h(
         "form",
         { class: "save-form", onsubmit: submit },
-        h("label", { class: "field grow" }, h("span", {}, "Name"), name),
-        h("button", { type: "submit", dataTest: "save" }, "Save as CSV"),
+        h("label", { class: "field grow" }, h("span", {}, tr`Name`), name),
+        h("button", { type: "submit", dataTest: "save" }, tr`Save as CSV`),
         identify,
         said,
       ),
@@ -431,8 +437,8 @@ class MeasureTab implements TabHandle {
         "p",
         { class: "muted note" },
         named
-          ? `${file} is where the campaign has the readings of this instrument${there ? "; it is there already, and is not replaced" : ""}.`
-          : `The campaign names no file of readings; with readings = "${baseName(file)}" under [instrument.${sheet.header.instrument}] identify finds them.`,
+          ? tr`${file} is where the campaign has the readings of this instrument${there ? tr`; it is there already, and is not replaced` : ""}.`
+          : tr`The campaign names no file of readings; with readings = "${baseName(file)}" under [instrument.${sheet.header.instrument}] identify finds them.`,
       ),
     );
   }
@@ -441,7 +447,7 @@ class MeasureTab implements TabHandle {
   private usable(said?: HTMLElement): boolean {
     const { sheet } = this;
     const bad = sheet?.bad()[0];
-    const words = !sheet || sheet.done === 0 ? "There is no reading yet." : bad ? `${bad.words}.` : null;
+    const words = !sheet || sheet.done === 0 ? tr`There is no reading yet.` : bad ? `${bad.words}.` : null;
     if (words && said) {
       fill(said, words);
       said.classList.add("unsound");
@@ -456,11 +462,11 @@ class MeasureTab implements TabHandle {
       const version = this.versions.get(path) ?? null;
       const saved = await this.app.api.ask("save", { path, text: sheet.csv(), version, window: this.app.api.window });
       this.versions.set(path, saved.version);
-      fill(said, `${count(sheet.done, "reading")} saved as ${path}.`);
+      fill(said, tr`${count(sheet.done, "reading")} saved as ${path}.`);
       said.classList.remove("unsound");
     } catch (error) {
       const refusal = Refusal.from(error);
-      fill(said, `${refusal.message}${refusal.hint ? `: ${refusal.hint}` : ""}.`);
+      fill(said, refusalWords(refusal));
       said.classList.add("unsound");
     }
   }
@@ -481,8 +487,8 @@ class MeasureTab implements TabHandle {
       min: "0",
       step: "1",
       value: this.seed,
-      placeholder: "that of the file",
-      ariaLabel: "Random seed",
+      placeholder: tr`that of the file`,
+      ariaLabel: tr`Random seed`,
       dataTest: "seed",
     });
     const run = (event: Event): void => {
@@ -492,17 +498,17 @@ class MeasureTab implements TabHandle {
     };
     fill(
       this.virtual_form,
-      h("h2", {}, "Try it on a virtual machine"),
+      h("h2", {}, tr`Try it on a virtual machine`),
       h(
         "form",
         { class: "save-form", onsubmit: run },
-        h("label", { class: "field" }, h("span", {}, "Seed"), seed),
-        h("button", { type: "submit", dataTest: "virtual" }, "Measure"),
+        h("label", { class: "field" }, h("span", {}, tr`Seed`), seed),
+        h("button", { type: "submit", dataTest: "virtual" }, tr`Measure`),
       ),
       h(
         "p",
         { class: "muted note" },
-        "What the instruments would read on the machine of [truth], with the noise and the disturbances that the campaign states. The same seed gives the same readings.",
+        tr`What the instruments would read on the machine of [truth], with the noise and the disturbances that the campaign states. The same seed gives the same readings.`,
       ),
     );
   }
@@ -510,10 +516,10 @@ class MeasureTab implements TabHandle {
   private async measure(): Promise<void> {
     const { campaign } = this;
     if (!campaign) return;
-    fill(this.virtual, h("section", { class: "panel muted" }, "Reading the instruments on the virtual machine …"));
+    fill(this.virtual, h("section", { class: "panel muted" }, tr`Reading the instruments on the virtual machine …`));
     try {
       const body = { campaign, ...(this.seed ? { seed: Number(this.seed) } : {}) };
-      const reply = await this.virtual_question.ask(body, `measuring ${campaign} on a virtual machine`);
+      const reply = await this.virtual_question.ask(body, tr`measuring ${campaign} on a virtual machine`);
       if (campaign === this.campaign) this.showVirtual(reply);
     } catch (error) {
       if (campaign !== this.campaign) return;
@@ -540,15 +546,15 @@ class MeasureTab implements TabHandle {
                 dataTest: "put",
                 onclick: () => void put().catch((error: unknown) => this.app.fail(error)),
               },
-              "Put these readings into the sheet",
+              tr`Put these readings into the sheet`,
             )
           : null,
       ),
       filesPanel(
         this.app,
         reply.made,
-        "Virtual readings",
-        "One table for each instrument, and what is true; nothing is written before you download or save it.",
+        tr`Virtual readings`,
+        tr`One table for each instrument, and what is true; nothing is written before you download or save it.`,
       ),
       reply.shown.sections.map(sectionPanel),
     );
@@ -556,6 +562,6 @@ class MeasureTab implements TabHandle {
 }
 
 export const measure: Tab = {
-  title: "Measure",
+  title: tr`Measure`,
   mount: (host, app) => new MeasureTab(host, app),
 };

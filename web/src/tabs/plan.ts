@@ -1,5 +1,6 @@
 /** What to measure: paths on the machine, what they see, how well every error will be known. */
 
+import { tr } from "../words/index.ts";
 import { diagnosticList, split, type App, type Tab, type TabHandle } from "../app.ts";
 import { numberIn, type Params } from "../address.ts";
 import { latestOnly, type PoseHeader } from "../api.ts";
@@ -78,7 +79,7 @@ class PlanTab implements TabHandle {
       step: "1",
       value: "0",
       class: "station-slider",
-      ariaLabel: "Station of the path",
+      ariaLabel: tr`Station of the path`,
       oninput: () => this.go(Number(this.slider.value)),
     });
     left.append(
@@ -88,18 +89,18 @@ class PlanTab implements TabHandle {
         h(
           "div",
           { class: "scene-control" },
-          h("button", { title: "Look at the stations from near", onclick: () => this.layer.closeUp() }, "Close up"),
-          h("span", {}, "Station"),
+          h("button", { title: tr`Look at the stations from near`, onclick: () => this.layer.closeUp() }, tr`Close up`),
+          h("span", {}, tr`Station`),
           this.slider,
           this.where,
         ),
       ),
     );
-    this.open_file = dropOn(host, app, "Readings …", (file) => {
+    this.open_file = dropOn(host, app, tr`Readings …`, (file) => {
       handOver(file);
       app.go("identify", { campaign: this.campaign });
     });
-    this.open_file.title = "Measured already? Readings opened here, or dropped anywhere on this page, go to Identify";
+    this.open_file.title = tr`Measured already? Readings opened here, or dropped anywhere on this page, go to Identify`;
     fill(right, this.head, this.summary, this.paths, this.result, this.stations, this.programs);
   }
 
@@ -145,7 +146,7 @@ class PlanTab implements TabHandle {
         h(
           "section",
           { class: "panel" },
-          h("p", {}, "Choose a campaign: it names the machine, the unknown errors, the instrument and its paths."),
+          h("p", {}, tr`Choose a campaign: it names the machine, the unknown errors, the instrument and its paths.`),
         ),
       );
       return;
@@ -158,10 +159,10 @@ class PlanTab implements TabHandle {
     if (!this.frame)
       fill(
         this.result,
-        h("section", { class: "panel muted" }, "Working out the paths, what they see, and their programs …"),
+        h("section", { class: "panel muted" }, tr`Working out the paths, what they see, and their programs …`),
       );
     try {
-      await this.show(await this.question.ask(body, `planning ${this.campaign}`));
+      await this.show(await this.question.ask(body, tr`planning ${this.campaign}`));
     } catch (error) {
       if (this.asked === asked) this.asked = "";
       if (isAbort(error)) return;
@@ -181,7 +182,7 @@ class PlanTab implements TabHandle {
   private showForm(): void {
     const campaigns = fileSelect(
       this.app,
-      "Campaign",
+      tr`Campaign`,
       "plan",
       (file) => file.kind === "campaign",
       this.campaign,
@@ -192,7 +193,7 @@ class PlanTab implements TabHandle {
       h(
         "div",
         { class: "row" },
-        h("label", { class: "field grow" }, h("span", {}, "Campaign"), campaigns),
+        h("label", { class: "field grow" }, h("span", {}, tr`Campaign`), campaigns),
         this.open_file,
         this.measureButton(),
         reportButton(this.app, { verb: "plan", file: this.campaign }),
@@ -205,8 +206,8 @@ class PlanTab implements TabHandle {
     if (!campaign) return null;
     return h(
       "button",
-      { title: "Type the readings, station by station", onclick: () => this.app.go("measure", { campaign }) },
-      "Measure",
+      { title: tr`Type the readings, station by station`, onclick: () => this.app.go("measure", { campaign }) },
+      tr`Measure`,
     );
   }
 
@@ -214,7 +215,7 @@ class PlanTab implements TabHandle {
     const select = h(
       "select",
       {
-        ariaLabel: "Control of the programs",
+        ariaLabel: tr`Control of the programs`,
         dataTest: "dialect",
         onchange: () => this.app.go("plan", { campaign: this.campaign, dialect: select.value }),
       },
@@ -242,13 +243,13 @@ class PlanTab implements TabHandle {
     this.shown = this.campaign;
     fill(this.summary, summaryPanel(document));
     this.draw(expectedPanel(document));
-    this.result.append(confoundedPanel(document.unobservable, "All unknowns are observable."));
+    this.result.append(confoundedPanel(document.unobservable, tr`All unknowns are observable.`));
     if (document.chosen) this.result.append(chosenPanel(document.chosen));
     this.draw(seenPanel(document));
     fill(this.programs, programsPanel(header, this.dialectSelect()));
     if (header.diagnostics.length > 0)
       this.programs.append(
-        h("section", { class: "panel" }, h("h2", {}, "Remarks"), diagnosticList(header.diagnostics)),
+        h("section", { class: "panel" }, h("h2", {}, tr`Remarks`), diagnosticList(header.diagnostics)),
       );
     // The chosen poses come last, and are what the plan is about.
     const wanted = document.chosen ? header.paths.length - 1 : Math.min(this.path, header.paths.length - 1);
@@ -273,7 +274,7 @@ class PlanTab implements TabHandle {
     );
     this.slider.max = String(Math.max(0, (header.paths[path]?.stations ?? 1) - 1));
     this.layer.show(this.tools(), 0, this.tool_mm);
-    this.view.overlay.note("stations", `Strokes: tool axis at every station; the tool is that of the machine file`);
+    this.view.overlay.note("stations", tr`Strokes: tool axis at every station; the tool is that of the machine file`);
     this.listStations();
     this.go(0);
   }
@@ -328,14 +329,19 @@ class PlanTab implements TabHandle {
     this.stations.hidden = count === 0;
     fill(
       this.stations,
-      h("h2", {}, name === "chosen" ? "Stations of the chosen poses" : `Stations of path ${name}`),
+      h("h2", {}, name === "chosen" ? tr`Stations of the chosen poses` : tr`Stations of path ${name}`),
       h(
         "div",
         { class: "stations" },
-        h("table", {}, h("thead", {}, h("tr", {}, h("th", { class: "number" }, "No."), heading)), h("tbody", {}, rows)),
+        h(
+          "table",
+          {},
+          h("thead", {}, h("tr", {}, h("th", { class: "number" }, tr`No.`), heading)),
+          h("tbody", {}, rows),
+        ),
       ),
       shown < count
-        ? h("p", { class: "muted note" }, `The first ${shown} of ${count}; the slider below the machine reaches all.`)
+        ? h("p", { class: "muted note" }, tr`The first ${shown} of ${count}; the slider below the machine reaches all.`)
         : null,
     );
   }
@@ -357,7 +363,7 @@ class PlanTab implements TabHandle {
     const text = this.frame.header.axes
       .map(({ name, unit }, i, axes) => `${name}${NARROW_SPACE}${value(name, unit, axes[i + 1]?.unit)}`)
       .join(" ");
-    this.where.textContent = `${station + 1} of ${this.span()[1]}: ${text}`;
+    this.where.textContent = tr`${station + 1} of ${this.span()[1]}: ${text}`;
     this.slider.setAttribute("aria-valuetext", this.where.textContent);
     for (const row of this.stations.querySelectorAll<HTMLElement>("[data-station]")) {
       const here = row.dataset.station === String(station);
@@ -387,6 +393,6 @@ function scrollInto(row: HTMLElement): void {
 }
 
 export const plan: Tab = {
-  title: "Plan",
+  title: tr`Plan`,
   mount: (host, app) => new PlanTab(host, app),
 };

@@ -1,5 +1,6 @@
 /** The test piece before it is cut: is it good, which error contributes what, and what if? */
 
+import { tr } from "../words/index.ts";
 import { diagnosticList, split, type App, type Tab, type TabHandle } from "../app.ts";
 import { latestOnly, Refusal } from "../api.ts";
 import type { Params } from "../address.ts";
@@ -19,9 +20,9 @@ import { WhatIf, type Changes } from "./predict/whatif.ts";
 type Answer = PieceFrame | Frame<HolesHeader> | Frame<DrawingHeader>;
 type Page = "budget" | "what-if" | "numbers";
 const PAGES: readonly [Page, string][] = [
-  ["budget", "Error budget"],
-  ["what-if", "What if"],
-  ["numbers", "All numbers"],
+  ["budget", tr`Error budget`],
+  ["what-if", tr`What if`],
+  ["numbers", tr`All numbers`],
 ];
 
 interface Wanted {
@@ -37,7 +38,7 @@ class PredictTab implements TabHandle {
   private readonly holes_page = h("div", { class: "predict-page", hidden: true });
   private readonly drawing_page = h("div", { class: "predict-page", hidden: true });
   private readonly pages = new Map<Page, HTMLElement>();
-  private readonly page_buttons = h("div", { class: "group", role: "group", ariaLabel: "Shown below" });
+  private readonly page_buttons = h("div", { class: "group", role: "group", ariaLabel: tr`Shown below` });
   private piece: {
     summary: Summary;
     view: PieceView;
@@ -77,7 +78,7 @@ class PredictTab implements TabHandle {
         h(
           "p",
           {},
-          "There is no study in this folder. Open an example on the first page, or put a study that names a machine and a test piece or a part into the folder.",
+          tr`There is no study in this folder. Open an example on the first page, or put a study that names a machine and a test piece or a part into the folder.`,
         ),
       );
       return;
@@ -111,7 +112,7 @@ class PredictTab implements TabHandle {
     const stop = new AbortController();
     this.stop = stop;
     this.study = study;
-    const progress = this.app.progress(`predicting ${study}`);
+    const progress = this.app.progress(tr`predicting ${study}`);
     try {
       const asked = this.compensated ? { study, compensated: true } : { study };
       const options = { onProgress: progress.report, signal: stop.signal };
@@ -154,13 +155,13 @@ class PredictTab implements TabHandle {
     this.empty.hidden = false;
     fill(
       this.empty,
-      h("div", { class: "panel-head" }, h("h1", {}, `${study} cannot be predicted`), studyChoice(this.app, study)),
+      h("div", { class: "panel-head" }, h("h1", {}, tr`${study} cannot be predicted`), studyChoice(this.app, study)),
       h("p", {}, refusal.message),
       refusal.hint ? h("p", { class: "hint" }, refusal.hint) : null,
       diagnosticList(refusal.diagnostics),
-      h("button", { onclick: () => void this.load(study) }, "Try again"),
+      h("button", { onclick: () => void this.load(study) }, tr`Try again`),
       this.compensated
-        ? h("button", { onclick: () => this.app.go("predict", { study }) }, "Without the compensated program")
+        ? h("button", { onclick: () => this.app.go("predict", { study }) }, tr`Without the compensated program`)
         : null,
     );
   }
@@ -261,7 +262,7 @@ class PredictTab implements TabHandle {
     this.draw(frame, this.base);
     const drawn = performance.now() - wanted.asked_at;
     this.piece.what_if.answered(answered, drawn);
-    this.app.say(`what if: answered in ${number(answered, 0)} ms`);
+    this.app.say(tr`what if: answered in ${number(answered, 0)} ms`);
   }
 
   private draw(frame: PieceFrame, before: PieceFrame | null): void {
@@ -280,6 +281,6 @@ const isDrawing = (frame: Answer): frame is Frame<DrawingHeader> => frame.header
 const isHoles = (frame: Answer): frame is Frame<HolesHeader> => frame.header.kind === "holes";
 
 export const predict: Tab = {
-  title: "Predict",
+  title: tr`Predict`,
   mount: (host, app) => new PredictTab(host, app),
 };

@@ -1,5 +1,6 @@
 /** The pages of the other tabs as one file: made by the server, shown, saved, printed. */
 
+import { language, tr, trText } from "../words/index.ts";
 import type { ServeReport, ServeReportRequest } from "../../types.d.ts";
 import type { App, Tab, TabHandle } from "../app.ts";
 import type { FileKind } from "../api.ts";
@@ -18,17 +19,36 @@ interface Verb {
 }
 
 const VERBS: readonly Verb[] = [
-  { name: "predict", title: "Predict: the part before it is cut", file: ["study"], needs_machine: false },
-  { name: "simulate", title: "Simulate: what the machine does with a program", file: ["program"], needs_machine: true },
-  { name: "plan", title: "Plan: what a campaign will show", file: ["campaign"], needs_machine: false },
-  { name: "identify", title: "Identify: the machine from readings", file: ["campaign"], needs_machine: false },
-  { name: "evaluate", title: "Evaluate: readings by ISO 230", file: ["readings"], needs_machine: false },
-  { name: "verify", title: "Verify: readings against the machine file", file: ["comparison"], needs_machine: false },
-  { name: "diff", title: "Verify: a calibration against an older one", file: ["machine"], needs_machine: true },
-  { name: "history", title: "Verify: the history of a folder", file: [], needs_machine: false },
-  { name: "certificate", title: "Verify: certificate of a compensation", file: ["certificate"], needs_machine: false },
-  { name: "laser", title: "Verify: a laser before and after", file: ["campaign"], needs_machine: false },
-  { name: "part", title: "Verify: a measured part", file: ["measured"], needs_machine: false },
+  { name: "predict", title: tr`Predict: the part before it is cut`, file: ["study"], needs_machine: false },
+  {
+    name: "simulate",
+    title: tr`Simulate: what the machine does with a program`,
+    file: ["program"],
+    needs_machine: true,
+  },
+  { name: "plan", title: tr`Plan: what a campaign will show`, file: ["campaign"], needs_machine: false },
+  { name: "identify", title: tr`Identify: the machine from readings`, file: ["campaign"], needs_machine: false },
+  { name: "evaluate", title: tr`Evaluate: readings by ISO 230`, file: ["readings"], needs_machine: false },
+  { name: "verify", title: tr`Verify: readings against the machine file`, file: ["comparison"], needs_machine: false },
+  { name: "diff", title: tr`Verify: a calibration against an older one`, file: ["machine"], needs_machine: true },
+  { name: "history", title: tr`Verify: the history of a folder`, file: [], needs_machine: false },
+  {
+    name: "certificate",
+    title: tr`Verify: certificate of a compensation`,
+    file: ["certificate"],
+    needs_machine: false,
+  },
+  { name: "laser", title: tr`Verify: a laser before and after`, file: ["campaign"], needs_machine: false },
+  { name: "part", title: tr`Verify: a measured part`, file: ["measured"], needs_machine: false },
+  { name: "rtcp", title: tr`Identify: rotary centres in the control`, file: ["rtcp"], needs_machine: false },
+  { name: "compensate-program", title: tr`Compensate: an NC program`, file: ["program"], needs_machine: true },
+  { name: "compensate-tables", title: tr`Compensate: tables of a control`, file: ["machine"], needs_machine: false },
+  {
+    name: "compensate-adapt",
+    title: tr`Compensate: a path on a measured blank`,
+    file: ["blank"],
+    needs_machine: false,
+  },
 ];
 
 type Made = ServeReport;
@@ -37,31 +57,32 @@ class ReportTab implements TabHandle {
   private readonly app: App;
   private readonly verb = h(
     "select",
-    { ariaLabel: "Kind of report", onchange: () => this.showFiles() },
+    { ariaLabel: tr`Kind of report`, onchange: () => this.showFiles() },
     VERBS.map(({ name, title }) => h("option", { value: name }, title)),
   );
-  private readonly file = h("select", { ariaLabel: "File", dataTest: "report-file" });
-  private readonly machine = h("select", { ariaLabel: "Machine file" });
-  private readonly standard = h("select", { ariaLabel: "Standard" });
-  private readonly make = h("button", { class: "primary", onclick: () => void this.run() }, "Make the report");
-  private readonly save = h("button", { disabled: true, onclick: () => void this.saveAs("html") }, "Save HTML");
+  private readonly file = h("select", { ariaLabel: tr`File`, dataTest: "report-file" });
+  private readonly machine = h("select", { ariaLabel: tr`Machine file` });
+  private readonly standard = h("select", { ariaLabel: tr`Standard` });
+  private readonly target = h("select", { ariaLabel: tr`Control` });
+  private readonly make = h("button", { class: "primary", onclick: () => void this.run() }, tr`Make the report`);
+  private readonly save = h("button", { disabled: true, onclick: () => void this.saveAs("html") }, tr`Save HTML`);
   private readonly heading = h("select", {
-    ariaLabel: "Heading to be filed and signed",
-    title: "A TOML file with [report]: number, date, customer, operator, logo, signatures",
+    ariaLabel: tr`Heading to be filed and signed`,
+    title: tr`A TOML file with [report]: number, date, customer, operator, logo, signatures`,
   });
   private readonly pdf = h(
     "button",
     { disabled: true, dataTest: "save-pdf", onclick: () => void this.saveAs("pdf") },
-    "Save PDF",
+    tr`Save PDF`,
   );
   private readonly print = h(
     "button",
     {
       disabled: true,
-      title: "The browser's print dialog also saves as PDF",
+      title: tr`The browser's print dialog also saves as PDF`,
       onclick: () => this.frame?.contentWindow?.print(),
     },
-    "Print or PDF",
+    tr`Print or PDF`,
   );
   private readonly note = h("span", { class: "muted", dataTest: "report-note" });
   private readonly page = h("div", { class: "report-page" });
@@ -71,11 +92,13 @@ class ReportTab implements TabHandle {
   private last = "";
   /** What else readings are evaluated with, as the address states it, for one file and one standard. */
   private evaluated: { of: string; with: Record<string, string | null> } = { of: "", with: {} };
+  /** What else a compensation was asked with, as the address states it (JSON), for one kind and its files. */
+  private compensated = { of: "", with: "" };
   private readonly stating: FileDialog;
 
   constructor(host: HTMLElement, app: App) {
     this.app = app;
-    this.stating = new FileDialog(app, "heading", "Heading of reports", "Save and make the report");
+    this.stating = new FileDialog(app, "heading", tr`Heading of reports`, tr`Save and make the report`);
     fill(
       host,
       h(
@@ -88,8 +111,9 @@ class ReportTab implements TabHandle {
           this.file,
           this.machine,
           this.standard,
+          this.target,
           this.heading,
-          h("button", { dataTest: "state-heading", onclick: () => void this.stateHeading() }, "Heading …"),
+          h("button", { dataTest: "state-heading", onclick: () => void this.stateHeading() }, tr`Heading …`),
           this.make,
           h("span", { class: "report-after" }, this.note, this.save, this.pdf, this.print),
         ),
@@ -99,14 +123,17 @@ class ReportTab implements TabHandle {
     this.showEmpty();
   }
 
-  /** The standards that the server knows, once. */
-  private async loadStandards(): Promise<void> {
+  /** The standards and the controls of tables that the server knows, once. */
+  private async loadChoices(): Promise<void> {
     if (this.standard.options.length > 0) return;
-    const list = await this.app.api.ask("standards", {});
-    fill(
-      this.standard,
-      list.map(({ key, title }) => h("option", { value: key }, title)),
-    );
+    const [standards, targets] = await Promise.all([
+      this.app.api.ask("standards", {}),
+      this.app.api.ask("compensate-targets", {}),
+    ]);
+    const option = ({ key, title }: { key: string; title: string }): HTMLElement =>
+      h("option", { value: key }, trText(title));
+    fill(this.standard, standards.map(option));
+    fill(this.target, targets.map(option));
   }
 
   open(params: Readonly<Record<string, string>>): void {
@@ -114,13 +141,16 @@ class ReportTab implements TabHandle {
   }
 
   private async show(params: Readonly<Record<string, string>>): Promise<void> {
-    await this.loadStandards();
+    await this.loadChoices();
     const verb = params.verb ?? this.verb.value;
     this.verb.value = VERBS.some((v) => v.name === verb) ? verb : "predict";
     this.showFiles(params.file, params.machine ?? this.app.state.machine ?? undefined);
     if (params.standard) this.standard.value = params.standard;
     const stated = STATED.map((key) => [key, params[key] ?? null]);
     this.evaluated = { of: this.readings(), with: Object.fromEntries(stated) };
+    this.compensated = { of: this.chosen(), with: params.with ?? "" };
+    const { target } = this.options();
+    if (typeof target === "string") this.target.value = target;
     // A link that names its file asks for the report; coming back to the tab does not ask again.
     const asked = this.asked();
     if (params.file && asked !== this.last) void this.run();
@@ -135,6 +165,7 @@ class ReportTab implements TabHandle {
       this.machine.hidden ? null : this.machine.value,
       this.standard.hidden ? null : this.standard.value,
       this.decides(),
+      this.options(),
     ]);
   }
 
@@ -150,7 +181,7 @@ class ReportTab implements TabHandle {
       h(
         "p",
         { class: "report-empty muted" },
-        "Choose what to report on. The report is one HTML file with all figures in it: it opens offline, and the browser prints it or saves it as PDF. With a heading it can be filed and signed (docs/reference/report.md).",
+        tr`Choose what to report on. The report is one HTML file with all figures in it: it opens offline, and the browser prints it or saves it as PDF. With a heading it can be filed and signed (docs/reference/report.md).`,
       ),
     );
   }
@@ -172,11 +203,12 @@ class ReportTab implements TabHandle {
     fill(this.machine, of(["machine"], machine));
     if (machine) this.machine.value = machine;
     const chosen = this.heading.value;
-    fill(this.heading, h("option", { value: "" }, "no heading"), of(["heading"], undefined));
+    fill(this.heading, h("option", { value: "" }, tr`no heading`), of(["heading"], undefined));
     this.heading.value = chosen;
     this.heading.hidden = this.heading.options.length < 2;
     this.machine.hidden = !verb.needs_machine;
     this.standard.hidden = verb.name !== "evaluate";
+    this.target.hidden = verb.name !== "compensate-tables";
     this.make.disabled = this.file.options.length === 0;
   }
 
@@ -186,8 +218,10 @@ class ReportTab implements TabHandle {
     const body = {
       verb: verb.name,
       file: this.file.value,
+      language: language(),
       ...(verb.needs_machine ? { machine: this.machine.value } : {}),
       ...(verb.name === "evaluate" ? { standard: this.standard.value, ...this.decides() } : {}),
+      ...(this.isCompensation() ? { options: this.options() } : {}),
       ...(this.heading.value ? { heading: this.heading.value } : {}),
     };
     this.last = this.asked();
@@ -197,11 +231,12 @@ class ReportTab implements TabHandle {
       machine: body.machine ?? null,
       standard: body.standard ?? null,
       ...(this.evaluated.of === this.readings() ? this.evaluated.with : {}),
+      with: this.isCompensation() ? JSON.stringify(this.options()) : null,
     });
     this.stop.abort();
     const stop = new AbortController();
     this.stop = stop;
-    const progress = this.app.progress(`reporting on ${body.file}`);
+    const progress = this.app.progress(tr`reporting on ${body.file}`);
     this.make.disabled = true;
     this.take(null);
     try {
@@ -226,11 +261,26 @@ class ReportTab implements TabHandle {
     return { ...given, ...(tolerances ? { tolerances: listed(tolerances), is_simple: simple === "1" } : {}) };
   }
 
+  private chosen(): string {
+    return `${this.verb.value}\n${this.file.value}\n${this.machine.value}`;
+  }
+
+  private isCompensation(): boolean {
+    return this.verb.value.startsWith("compensate-");
+  }
+
+  /** Options of one program are not those of another; the control of tables is chosen here. */
+  private options(): Record<string, unknown> {
+    if (!this.isCompensation()) return {};
+    const given = this.compensated.of === this.chosen() ? objectOf(this.compensated.with) : {};
+    return this.target.hidden ? given : { ...given, target: this.target.value };
+  }
+
   /** A heading is stated in a form; one that is there is edited as text. */
   private async stateHeading(): Promise<void> {
     const path = this.heading.value || "report-heading.toml";
     await this.stating.open({
-      title: ["Heading of reports"],
+      title: [tr`Heading of reports`],
       path,
       form: (text) => (text === null ? headingForm() : null),
       saved: (saved) => {
@@ -262,7 +312,7 @@ class ReportTab implements TabHandle {
     this.note.textContent = `${made.name}, ${bytes(made.bytes)}`;
     this.save.disabled = false;
     this.pdf.disabled = made.pdf === null;
-    this.pdf.title = made.pdf === null ? "This build writes no PDF: print it, or take the Debian package" : "";
+    this.pdf.title = made.pdf === null ? tr`This build writes no PDF: print it, or take the Debian package` : "";
     const warning = made.diagnostics.map((d) => d.message).join("; ");
     if (warning) this.note.textContent += `: ${warning}`;
     fill(this.page, this.frame);
@@ -275,7 +325,7 @@ class ReportTab implements TabHandle {
     const name = made.name.replace(/html$/, form);
     try {
       const response = await fetch(url.replace(/^\//, ""));
-      if (!response.ok) throw new Error(`the server no longer has ${name}: make the report again`);
+      if (!response.ok) throw new Error(tr`the server no longer has ${name}: make the report again`);
       const type = form === "pdf" ? "application/pdf" : "text/html";
       download(name, new Blob([await response.arrayBuffer()], { type }));
     } catch (error) {
@@ -284,7 +334,17 @@ class ReportTab implements TabHandle {
   }
 }
 
+/** What an address states may be anything. */
+function objectOf(text: string): Record<string, unknown> {
+  try {
+    const value: unknown = JSON.parse(text);
+    return typeof value === "object" && value !== null ? { ...value } : {};
+  } catch {
+    return {};
+  }
+}
+
 export const report: Tab = {
-  title: "Report",
+  title: tr`Report`,
   mount: (host, app) => new ReportTab(host, app),
 };

@@ -1,5 +1,6 @@
 /** What the machine does with a program: play it, see where it is slow, off, or runs into something. */
 
+import { tr, trText } from "../words/index.ts";
 import { split, type App, type Tab, type TabHandle } from "../app.ts";
 import { Refusal, type Diagnostic, type MachineDescription } from "../api.ts";
 import { numberIn, short, type Params } from "../address.ts";
@@ -113,7 +114,7 @@ class SimulateTab implements TabHandle {
       this.summary.element,
       h(
         "section",
-        { class: "panel simulate-source", ariaLabel: "Source" },
+        { class: "panel simulate-source", ariaLabel: tr`Source` },
         this.source_head,
         this.find.element,
         this.source.element,
@@ -190,7 +191,11 @@ class SimulateTab implements TabHandle {
     this.app.keep("simulate", { machine });
     if (params.dropped && !dropped)
       this.app.fail(
-        new Refusal("dropped-file", `${params.dropped} is not kept by this browser any more`, "Drop it here again."),
+        new Refusal(
+          "dropped-file",
+          tr`${params.dropped} is not kept by this browser any more`,
+          tr`Drop it here again.`,
+        ),
       );
     void this.run();
   }
@@ -238,9 +243,9 @@ class SimulateTab implements TabHandle {
     const dropped = this.dropped;
     if (!program || dropped) {
       const message = dropped
-        ? `${dropped.name} is in no folder, so no set-up can be saved with it`
-        : "no program is chosen";
-      this.app.fail(new Refusal("set-up", message, "Put the program into the project folder and choose it there."));
+        ? tr`${dropped.name} is in no folder, so no set-up can be saved with it`
+        : tr`no program is chosen`;
+      this.app.fail(new Refusal("set-up", message, tr`Put the program into the project folder and choose it there.`));
       return;
     }
     const header = this.simulation?.header;
@@ -250,7 +255,7 @@ class SimulateTab implements TabHandle {
   }
 
   private setUpSaved(path: string): void {
-    this.app.say(`${path} was saved`);
+    this.app.say(tr`${path} was saved`);
     this.choices.show(this.choice, this.dropped);
     void this.run();
   }
@@ -272,8 +277,8 @@ class SimulateTab implements TabHandle {
             "p",
             {},
             this.choice.machine
-              ? "Choose a program of the folder, or drop one here."
-              : "There is no machine file in this folder: put a machine.toml into it, or open an example on the first page.",
+              ? tr`Choose a program of the folder, or drop one here.`
+              : tr`There is no machine file in this folder: put a machine.toml into it, or open an example on the first page.`,
           ),
         );
         this.busy.hidden = false;
@@ -323,7 +328,7 @@ class SimulateTab implements TabHandle {
 
   private async simulate(job: Job, stop: AbortController): Promise<Simulation> {
     const name = typeof job.program === "string" ? job.program : job.program.name;
-    const meter = h("progress", { max: "1", value: 0, ariaLabel: "Simulation" });
+    const meter = h("progress", { max: "1", value: 0, ariaLabel: tr`Simulation` });
     const share = h("span", { class: "muted number" }, "0 %");
     const cancel = (): void => {
       stop.abort();
@@ -332,15 +337,15 @@ class SimulateTab implements TabHandle {
         h(
           "p",
           { class: "row" },
-          h("span", {}, "Stopped."),
-          h("button", { onclick: () => void this.run() }, "Simulate"),
+          h("span", {}, tr`Stopped.`),
+          h("button", { onclick: () => void this.run() }, tr`Simulate`),
         ),
       );
     };
     fill(
       this.busy,
-      h("p", {}, "Simulating ", h("code", {}, name)),
-      h("p", { class: "row" }, meter, share, h("button", { dataTest: "cancel", onclick: cancel }, "Cancel")),
+      h("p", {}, tr`Simulating `, h("code", {}, name)),
+      h("p", { class: "row" }, meter, share, h("button", { dataTest: "cancel", onclick: cancel }, tr`Cancel`)),
     );
     this.busy.hidden = false;
     const progress = (done: number): void => {
@@ -426,7 +431,7 @@ class SimulateTab implements TabHandle {
     const path = header.programs[index]?.path ?? known.name;
     const marks = header.marks
       .filter((m) => m.grave && m.program === index)
-      .map((m) => ({ line: m.line, severity: "error", message: m.text }));
+      .map((m) => ({ line: m.line, severity: "error", message: trText(m.text) }));
     this.showSource(known.name, known.text, [...notesOf(header.diagnostics, path), ...marks]);
     if (this.moment?.program === index) this.source.setCurrent(this.moment.line);
   }
@@ -435,17 +440,17 @@ class SimulateTab implements TabHandle {
     const programs = this.simulation?.header.programs ?? [];
     const choose = h(
       "select",
-      { ariaLabel: "Program", onchange: () => void this.showProgram(Number(choose.value)) },
+      { ariaLabel: tr`Program`, onchange: () => void this.showProgram(Number(choose.value)) },
       programs.map((p, i) => h("option", { value: i }, p.name)),
     );
     choose.value = String(this.shown_program);
     const errors = notes.filter((n) => n.severity === "error").length;
     fill(
       this.source_head,
-      h("h2", {}, "Source"),
+      h("h2", {}, tr`Source`),
       programs.length > 1 ? choose : h("code", { class: "muted", title: name }, name.replace(/^.*[\\/]/, "")),
       errors > 0
-        ? h("span", { class: "source-errors" }, errors === 1 ? "1 place underlined" : `${errors} places underlined`)
+        ? h("span", { class: "source-errors" }, errors === 1 ? tr`1 place underlined` : tr`${errors} places underlined`)
         : null,
       this.find.button,
     );
@@ -483,8 +488,8 @@ class SimulateTab implements TabHandle {
     if (next) this.player.seek(next.time_s);
     this.app.say(
       next
-        ? `${marks.indexOf(next) + 1} of ${marks.length}: ${next.text}, line ${next.line}`
-        : "No issue in this program",
+        ? tr`${marks.indexOf(next) + 1} of ${marks.length}: ${trText(next.text)}, line ${next.line}`
+        : tr`No issue in this program`,
     );
   }
 
@@ -526,8 +531,8 @@ class SimulateTab implements TabHandle {
     const job = this.job();
     if (!job || !simulation || !moment) return;
     if (moment.line < 1 || moment.program !== 0) {
-      const message = moment.line < 1 ? "no block runs at this moment" : "this block is in a subprogram";
-      this.app.fail(new Refusal("why-here", message, "Choose a block of the main program."));
+      const message = moment.line < 1 ? tr`no block runs at this moment` : tr`this block is in a subprogram`;
+      this.app.fail(new Refusal("why-here", message, tr`Choose a block of the main program.`));
       return;
     }
     void this.why.show(bodyOf(job), moment.line, simulation.header.marks);
@@ -565,10 +570,16 @@ function ofFile(d: Diagnostic, name: string): boolean {
 function notesOf(diagnostics: readonly Diagnostic[], name: string): LineNote[] {
   return diagnostics
     .filter((d) => d.line && ofFile(d, name))
-    .map((d) => ({ line: d.line as number, column: d.column, severity: d.severity, message: d.message, hint: d.hint }));
+    .map((d) => ({
+      line: d.line as number,
+      column: d.column,
+      severity: d.severity,
+      message: trText(d.message),
+      hint: trText(d.hint ?? ""),
+    }));
 }
 
 export const simulate: Tab = {
-  title: "Simulate",
+  title: tr`Simulate`,
   mount: (host, app) => new SimulateTab(host, app),
 };

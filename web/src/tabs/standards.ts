@@ -1,5 +1,6 @@
 /** Readings of instruments judged by ISO 230: charts, figures with their uncertainty, every target. */
 
+import { tr, trText } from "../words/index.ts";
 import type { ServeEvaluate, StandardEntry } from "../../types.d.ts";
 import { Refusal, type Request } from "../api.ts";
 import { diagnosticList, split, type App, type Tab, type TabHandle } from "../app.ts";
@@ -18,6 +19,7 @@ import { conditionsForm } from "./standards/conditions.ts";
 import { as, kindOf, STATED, type Circular, type EvaluateDocument } from "./standards/documents.ts";
 import { drawPictures } from "./standards/pictures.ts";
 import { keepInProject } from "./standards/keep.ts";
+import { told } from "./standards/told.ts";
 import { sheetsOf, tilesOf } from "./standards/tables.ts";
 import { takeDropped } from "./start.ts";
 
@@ -78,6 +80,15 @@ function asked({ machine: _, ...rest }: Params): string {
   return JSON.stringify(rest);
 }
 
+/** The circle that the deviations are from. */
+function nominalText(document: EvaluateDocument): string {
+  if (kindOf(document) !== "circular") return "";
+  const { radius_mm, centre_mm } = as<Circular>(document);
+  const mm = (text: string): string => `${text}${NARROW_SPACE}mm`;
+  const centre = centre_mm.map((v) => number(v, 4)).join(", ");
+  return tr` Nominal circle: radius ${mm(number(radius_mm, 4))} about ${mm(centre)}.`;
+}
+
 class StandardsTab implements TabHandle {
   private readonly app: App;
   private readonly head = h("section", { class: "panel form" });
@@ -101,12 +112,12 @@ class StandardsTab implements TabHandle {
   constructor(host: HTMLElement, app: App) {
     this.app = app;
     this.question = new Question(app, "evaluate");
-    this.columns = new FileDialog(app, "columns", "Columns of the readings", "Save and evaluate");
-    this.stating = new FileDialog(app, "conditions", "Conditions of the test", "Save and evaluate");
+    this.columns = new FileDialog(app, "columns", tr`Columns of the readings`, tr`Save and evaluate`);
+    this.stating = new FileDialog(app, "conditions", tr`Conditions of the test`, tr`Save and evaluate`);
     const { left, right } = split(host, "standards", 0.56);
     this.charts = h("div", { class: "scroll pictures" });
     left.append(this.charts);
-    this.open_file = dropOn(host, app, "Open readings …", (file) => void this.take(file));
+    this.open_file = dropOn(host, app, tr`Open readings …`, (file) => void this.take(file));
     fill(right, this.head, this.result);
   }
 
@@ -197,32 +208,28 @@ class StandardsTab implements TabHandle {
               "p",
               {},
               params.dropped
-                ? `${params.dropped} is not kept by this browser any more: drop it again.`
-                : "Choose readings above, or drop a CSV anywhere here. Nothing leaves this computer.",
+                ? tr`${params.dropped} is not kept by this browser any more: drop it again.`
+                : tr`Choose readings above, or drop a CSV anywhere here. Nothing leaves this computer.`,
             ),
           ),
         );
         return;
       }
-      const frame = await this.question.ask(this.body(path), `evaluating ${path ?? this.dropped?.name ?? ""}`);
+      const frame = await this.question.ask(this.body(path), tr`evaluating ${path ?? this.dropped?.name ?? ""}`);
       this.show(frame, path);
     } catch (error) {
       if (isAbort(error)) return;
       this.clear();
+      const [before, after] =
+        tr`Readings of the instruments of a campaign are not judged by a standard: drop them in ${"|"}.`.split("|");
       const codes = error instanceof Refusal ? error.diagnostics.map((d) => d.code) : [];
       showRefusal(
         this.result,
         error,
         codes.some((code) => OF_COLUMNS.includes(code))
-          ? this.columnsButton("Say what the columns are …", "primary")
+          ? this.columnsButton(tr`Say what the columns are …`, "primary")
           : null,
-        h(
-          "p",
-          { class: "note" },
-          "Readings of the instruments of a campaign are not judged by a standard: drop them in ",
-          h("a", { href: "#identify" }, "Identify"),
-          ".",
-        ),
+        h("p", { class: "note" }, before, h("a", { href: "#identify" }, tr`Identify`), after),
       );
     }
   }
@@ -263,7 +270,7 @@ class StandardsTab implements TabHandle {
       {
         class: style,
         dataTest: "columns",
-        title: "Which column is what, its unit and its sign",
+        title: tr`Which column is what, its unit and its sign`,
         onclick: () => void this.stateColumns(name),
       },
       text,
@@ -275,7 +282,7 @@ class StandardsTab implements TabHandle {
     const known = this.standards.find((one) => one.key === this.standard)?.columns ?? [];
     const of = { name, path: dropped ? null : name, text: dropped?.text ?? null };
     await this.columns.open({
-      title: ["Columns of ", h("code", {}, name)],
+      title: [tr`Columns of `, h("code", {}, name)],
       path: besideOf(name, ".map.toml"),
       form: async (mapping) => {
         // A file of a person is edited as it is: a form would lose its comments.
@@ -286,7 +293,7 @@ class StandardsTab implements TabHandle {
         const answer = await (mapping === null ? asked : asked.catch(() => null));
         if (answer === null || answer.is_mapping_text) return null;
         const { table } = answer;
-        if (!table) throw new Refusal("no-table", `${name} has no two columns`, "Is it a table of readings?");
+        if (!table) throw new Refusal("no-table", tr`${name} has no two columns`, tr`Is it a table of readings?`);
         return new ColumnsForm(this.app, of, known, table);
       },
       ...(dropped ? { kept: this.keptText(dropped.name, ".map.toml", "mapping") } : {}),
@@ -298,7 +305,7 @@ class StandardsTab implements TabHandle {
     const { dropped, standard } = this;
     const path = this.params.conditions ?? this.conditions ?? besideOf(name, ".toml");
     await this.stating.open({
-      title: ["Conditions of ", h("code", {}, name)],
+      title: [tr`Conditions of `, h("code", {}, name)],
       path,
       form: (text) => (text === null ? conditionsForm(standard, name) : null),
       ...(dropped && !this.params.conditions ? { kept: this.keptText(dropped.name, ".toml", "stated") } : {}),
@@ -310,7 +317,7 @@ class StandardsTab implements TabHandle {
   private keptText(name: string, ending: string, which: keyof Typed): NonNullable<Stated["kept"]> {
     return {
       text: this.typed[which],
-      where: "kept by this browser with the file that was dropped",
+      where: tr`kept by this browser with the file that was dropped`,
       keep: async (text) => {
         this.typed = { ...this.typed, [which]: text };
         await keepFile(this.app.state.project?.folder ?? "", { name: besideOf(name, ending), text });
@@ -333,7 +340,7 @@ class StandardsTab implements TabHandle {
     this.conditions = null;
     fill(
       this.charts,
-      h("p", { class: "empty" }, "The charts stand here. Drop a CSV of readings anywhere on this page."),
+      h("p", { class: "empty" }, tr`The charts stand here. Drop a CSV of readings anywhere on this page.`),
     );
     this.result.replaceChildren();
   }
@@ -346,19 +353,19 @@ class StandardsTab implements TabHandle {
     const choice = h(
       "select",
       {
-        ariaLabel: "Standard",
+        ariaLabel: tr`Standard`,
         dataTest: "standard",
         onchange: () =>
           this.choose({ standard: choice.value, radius: null, window: null, tolerances: null, simple: null }),
       },
-      this.standards.map((one) => h("option", { value: one.key }, one.title)),
+      this.standards.map((one) => h("option", { value: one.key }, trText(one.title))),
     );
     choice.value = standard;
     const isReadings = ({ kind }: { kind: string }): boolean => kind === "readings";
     const now = this.dropped ? null : path;
     const files = fileSelect(
       this.app,
-      this.dropped ? this.dropped.name : "Readings",
+      this.dropped ? this.dropped.name : tr`Readings`,
       "standards",
       isReadings,
       now,
@@ -378,7 +385,7 @@ class StandardsTab implements TabHandle {
     const beside = h(
       "select",
       {
-        ariaLabel: "Conditions of the test",
+        ariaLabel: tr`Conditions of the test`,
         class: "file-select",
         onchange: () => this.choose({ conditions: beside.value || null }),
       },
@@ -388,7 +395,7 @@ class StandardsTab implements TabHandle {
     beside.value = conditions ?? "";
     const name = this.dropped?.name ?? path;
     const isTable = name !== null && !/\.(qif|md|rtl|rta)$/i.test(name);
-    const tolerance = `such as ${TOLERANCES[standard] ?? "A=10 um; R=5 um"}`;
+    const tolerance = tr`such as ${TOLERANCES[standard] ?? "A=10 um; R=5 um"}`;
     const field = (key: string, label: string, hint: string, isLong = false): HTMLElement => {
       const box = h("input", {
         type: "text",
@@ -405,7 +412,7 @@ class StandardsTab implements TabHandle {
       h(
         "div",
         { class: "row" },
-        h("label", { class: "field" }, h("span", {}, "Standard"), choice),
+        h("label", { class: "field" }, h("span", {}, tr`Standard`), choice),
         reportButton(this.app, {
           verb: "evaluate",
           file: now,
@@ -417,39 +424,39 @@ class StandardsTab implements TabHandle {
               "button",
               {
                 dataTest: "keep-readings",
-                title: "Readings, columns and conditions as files of the project: for a report, and for the next time",
+                title: tr`Readings, columns and conditions as files of the project: for a report, and for the next time`,
                 onclick: () => void this.keep(),
               },
-              "Save in the project …",
+              tr`Save in the project …`,
             )
           : null,
       ),
       h(
         "div",
         { class: "row" },
-        h("label", { class: "field grow" }, h("span", {}, "Readings"), files),
+        h("label", { class: "field grow" }, h("span", {}, tr`Readings`), files),
         this.open_file,
-        isTable ? this.columnsButton("Columns …") : null,
+        isTable ? this.columnsButton(tr`Columns …`) : null,
       ),
       h(
         "div",
         { class: "row" },
-        h("label", { class: "field grow" }, h("span", {}, "Conditions"), beside),
+        h("label", { class: "field grow" }, h("span", {}, tr`Conditions`), beside),
         name
           ? h(
               "button",
               { dataTest: "state-conditions", onclick: () => void this.stateConditions(name) },
-              "State them …",
+              tr`State them …`,
             )
           : null,
-        standard === "iso230-4" ? field("radius", "Nominal radius", "of the conditions, e.g. 150 mm") : null,
-        standard === "iso230-3" ? field("window", "Window", "60 min") : null,
-        /\.qif$/i.test(name ?? "") ? field("feature", "Feature", "name or id") : null,
+        standard === "iso230-4" ? field("radius", tr`Nominal radius`, tr`of the conditions, e.g. 150 mm`) : null,
+        standard === "iso230-3" ? field("window", tr`Window`, "60 min") : null,
+        /\.qif$/i.test(name ?? "") ? field("feature", tr`Feature`, tr`name or id`) : null,
       ),
       h(
         "div",
         { class: "row" },
-        field("tolerances", "Tolerances", tolerance, true),
+        field("tolerances", tr`Tolerances`, tolerance, true),
         this.params.tolerances ? this.simpleBox() : null,
       ),
     );
@@ -461,12 +468,12 @@ class StandardsTab implements TabHandle {
       checked: this.params.simple === "1",
       onchange: () => this.choose({ simple: box.checked ? "1" : null }),
     });
-    return h("label", { title: "Without the uncertainty U: simple acceptance" }, box, " by the value alone");
+    return h("label", { title: tr`Without the uncertainty U: simple acceptance` }, box, tr` by the value alone`);
   }
 
   private conditionsWord(): string {
-    if (!this.dropped) return "of the same name beside the readings";
-    return this.typed.stated === null ? "none" : "as stated here";
+    if (!this.dropped) return tr`of the same name beside the readings`;
+    return this.typed.stated === null ? tr`none` : tr`as stated here`;
   }
 
   /** TOML files that may hold conditions: those in the folders of readings. */
@@ -505,14 +512,14 @@ class StandardsTab implements TabHandle {
     this.figures = drawPictures(this.charts, frame, pictures, circle);
     const file = path ?? this.dropped?.name ?? document.file;
     // Title, standard, then machine, axis, instrument, date, temperature: as on the command line.
-    const circumstances = text.split("\n")[2]?.trim() ?? file;
+    const circumstances = (text.split("\n")[2]?.trim() ?? file).split(" · ");
     fill(
       this.result,
       h(
         "section",
         { class: "panel" },
-        h("h1", {}, document.name ?? file),
-        h("p", { class: "muted", dataTest: "circumstances" }, circumstances),
+        h("h1", { dataOwn: "" }, document.name ?? file),
+        h("p", { class: "muted", dataTest: "circumstances", dataOwn: "" }, circumstances.map(told).join(" · ")),
         this.verdict(document),
         this.tiles(document),
         h("p", { class: "muted note", dataTest: "conditions" }, this.conditionsText(document, conditions_file, file)),
@@ -531,8 +538,8 @@ class StandardsTab implements TabHandle {
     return h(
       "p",
       { class: `verdict-band ${standing}`, dataTest: "decision" },
-      h("strong", {}, decisions.decision),
-      h("span", {}, `by ${decisions.rule === "simple" ? "the values alone" : decisions.rule}`),
+      h("strong", {}, trText(decisions.decision)),
+      h("span", {}, decisions.rule === "simple" ? tr`by the values alone` : tr`by ${decisions.rule}`),
     );
   }
 
@@ -544,7 +551,7 @@ class StandardsTab implements TabHandle {
         h(
           "div",
           { class: "tile", title: tile.title, dataTile: tile.symbol },
-          h("dt", {}, tile.symbol, h("span", { class: "muted tile-word" }, tile.word)),
+          h("dt", {}, trText(tile.symbol), h("span", { class: "muted tile-word" }, tile.word)),
           h(
             "dd",
             {},
@@ -553,7 +560,7 @@ class StandardsTab implements TabHandle {
             tile.U != null
               ? h(
                   "span",
-                  { class: "muted tile-u", title: "expanded uncertainty, k = 2" },
+                  { class: "muted tile-u", title: tr`expanded uncertainty, k = 2` },
                   `U ${number(tile.U, 2)}${NARROW_SPACE}${tile.unit}`,
                 )
               : null,
@@ -565,29 +572,22 @@ class StandardsTab implements TabHandle {
 
   /** What is known beside the readings, and what is taken for granted without it. */
   private conditionsText(document: EvaluateDocument, conditions: string | null, file: string): string {
-    const used =
-      kindOf(document) === "circular"
-        ? ` Nominal circle: radius ${number(as<Circular>(document).radius_mm, 4)}${NARROW_SPACE}mm about ${as<Circular>(
-            document,
-          )
-            .centre_mm.map((v) => number(v, 4))
-            .join(", ")}${NARROW_SPACE}mm.`
-        : "";
-    const encoding = this.dropped?.encoding ? ` Read as ${this.dropped.encoding}.` : "";
-    if (conditions) return `Conditions: ${conditions}.${used}${encoding}`;
-    if (this.dropped && this.typed.stated !== null) return `Conditions as stated here.${used}${encoding}`;
+    const encoding = this.dropped?.encoding ? tr` Read as ${this.dropped.encoding}.` : "";
+    const more = `${nominalText(document)}${encoding}`;
+    if (conditions) return `${tr`Conditions: ${conditions}.`}${more}`;
+    if (this.dropped && this.typed.stated !== null) return `${tr`Conditions as stated here.`}${more}`;
     const lacking =
       kindOf(document) === "positioning"
-        ? "nothing is known of instrument and temperature, so that no uncertainty U can be stated"
-        : "nothing is known of instrument, date and temperature";
+        ? tr`nothing is known of instrument and temperature, so that no uncertainty U can be stated`
+        : tr`nothing is known of instrument, date and temperature`;
     const beside = this.dropped
-      ? "Choose a conditions file above if there is one, or state them."
-      : `It would be ${file.replace(/\.[^./]*$/, "")}.toml, beside the readings.`;
-    return `No conditions file: ${lacking}. ${beside}${used}${encoding}`;
+      ? tr`Choose a conditions file above if there is one, or state them.`
+      : tr`It would be ${besideOf(file, ".toml")}, beside the readings.`;
+    return tr`No conditions file: ${lacking}. ${beside}${more}`;
   }
 }
 
 export const standards: Tab = {
-  title: "Standards",
+  title: tr`Standards`,
   mount: (host, app) => new StandardsTab(host, app),
 };

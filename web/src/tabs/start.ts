@@ -1,5 +1,6 @@
 /** The first page: what is shipped, one click each, and what the folder holds. */
 
+import { tr, trText } from "../words/index.ts";
 import type { App, Tab, TabHandle } from "../app.ts";
 import { Refusal, type Example, type FileKind, type Project, type ProjectFile } from "../api.ts";
 import { hashOf } from "../address.ts";
@@ -10,31 +11,31 @@ import { readText, type TextFile } from "./measure/drop.ts";
 import { newMachine } from "./start/newmachine.ts";
 
 const VERBS: readonly [string, string, string][] = [
-  ["describe", "Describe", "What the machine is, and where its tool really is"],
-  ["simulate", "Simulate", "What it does with a program"],
-  ["predict", "Predict", "Whether the part will be good"],
-  ["plan", "Plan", "What to measure, and with what uncertainty"],
-  ["measure", "Measure", "Readings, station by station, and how well they repeat"],
-  ["identify", "Identify", "What the machine is like, from readings"],
-  ["compensate", "Compensate", "What the control has to add"],
-  ["verify", "Verify", "Whether it is as promised, and what has changed"],
-  ["standards", "Standards", "Readings judged by ISO 230"],
-  ["live", "Live", "What the correction in the control is doing"],
+  ["describe", tr`Describe`, tr`What the machine is, and where its tool really is`],
+  ["simulate", tr`Simulate`, tr`What it does with a program`],
+  ["predict", tr`Predict`, tr`Whether the part will be good`],
+  ["plan", tr`Plan`, tr`What to measure, and with what uncertainty`],
+  ["measure", tr`Measure`, tr`Readings, station by station, and how well they repeat`],
+  ["identify", tr`Identify`, tr`What the machine is like, from readings`],
+  ["compensate", tr`Compensate`, tr`What the control has to add`],
+  ["verify", tr`Verify`, tr`Whether it is as promised, and what has changed`],
+  ["standards", tr`Standards`, tr`Readings judged by ISO 230`],
+  ["live", tr`Live`, tr`What the correction in the control is doing`],
 ];
 
 const KINDS: readonly [FileKind, string, string | null, string][] = [
-  ["machine", "Machines", "describe", "machine"],
-  ["program", "Programs", "simulate", "program"],
-  ["study", "Studies", "predict", "study"],
-  ["campaign", "Campaigns", "plan", "campaign"],
-  ["readings", "Readings", "standards", "path"],
-  ["comparison", "Comparisons", "verify", "file"],
-  ["certificate", "Certificates", "verify", "file"],
-  ["measured", "Measured parts", "verify", "file"],
-  ["blank", "Paths on measured blanks", "compensate", "study"],
-  ["live", "Live runs", "live", "plan"],
-  ["setup", "Set-ups", null, ""],
-  ["cl", "Cutter locations", null, ""],
+  ["machine", tr`Machines`, "describe", "machine"],
+  ["program", tr`Programs`, "simulate", "program"],
+  ["study", tr`Studies`, "predict", "study"],
+  ["campaign", tr`Campaigns`, "plan", "campaign"],
+  ["readings", tr`Readings`, "standards", "path"],
+  ["comparison", tr`Comparisons`, "verify", "file"],
+  ["certificate", tr`Certificates`, "verify", "file"],
+  ["measured", tr`Measured parts`, "verify", "file"],
+  ["blank", tr`Paths on measured blanks`, "compensate", "study"],
+  ["live", tr`Live runs`, "live", "plan"],
+  ["setup", tr`Set-ups`, null, ""],
+  ["cl", tr`Cutter locations`, null, ""],
 ];
 
 /** Where an example of a tab keeps its path in the address. */
@@ -80,8 +81,8 @@ function cards(app: App, project: Project): HTMLElement[] {
               h(
                 "button",
                 { class: "card", dataExample: example.path, onclick: () => openExample(app, example) },
-                h("strong", {}, example.title),
-                h("span", {}, example.what),
+                h("strong", {}, trText(example.title)),
+                h("span", {}, trText(example.what)),
               ),
             ),
           ),
@@ -149,8 +150,8 @@ async function take(app: App, file: File | undefined): Promise<void> {
     app.fail(
       new Refusal(
         "dropped-file",
-        `${file.name} is not a file that this page opens by dropping`,
-        "Drop an NC program or a CSV of readings; machine files and studies belong into the project folder.",
+        tr`${file.name} is not a file that this page opens by dropping`,
+        tr`Drop an NC program or a CSV of readings; machine files and studies belong into the project folder.`,
       ),
     );
     return;
@@ -186,17 +187,17 @@ async function showKept(app: App, place: HTMLElement): Promise<void> {
       h(
         "td",
         { class: "number" },
-        h("button", { ariaLabel: `Remove ${name}`, onclick: () => void remove() }, "Remove"),
+        h("button", { ariaLabel: tr`Remove ${name}`, onclick: () => void remove() }, tr`Remove`),
       ),
     );
   };
   fill(
     place,
-    h("h3", {}, "Dropped files"),
+    h("h3", {}, tr`Dropped files`),
     h(
       "p",
       { class: "muted" },
-      `Kept by this browser for a reload, at most ${MOST_FILES} files and ${bytes(MOST_BYTES)}; the oldest go first.`,
+      tr`Kept by this browser for a reload, at most ${MOST_FILES} files and ${bytes(MOST_BYTES)}; the oldest go first.`,
     ),
     h("table", {}, h("tbody", {}, files.map(row))),
   );
@@ -206,17 +207,17 @@ function dropZone(app: App): HTMLElement {
   const input = h("input", {
     type: "file",
     class: "drop-input",
-    ariaLabel: "Open a file of this computer",
+    ariaLabel: tr`Open a file of this computer`,
     onchange: () => void take(app, input.files?.[0]),
   });
   const zone = h(
     "label",
     { class: "drop" },
-    h("strong", {}, "Drop a program or readings here"),
+    h("strong", {}, tr`Drop a program or readings here`),
     h(
       "span",
       { class: "muted" },
-      "NC programs open in Simulate, CSV readings in Standards. Nothing leaves this computer.",
+      tr`NC programs open in Simulate, CSV readings in Standards. Nothing leaves this computer.`,
     ),
     input,
   );
@@ -234,7 +235,7 @@ function dropZone(app: App): HTMLElement {
 }
 
 export const start: Tab = {
-  title: "Start",
+  title: tr`Start`,
   mount(host: HTMLElement, app: App): TabHandle {
     let shown: Project | null = null;
     const kept = h("section", { class: "kept-files", dataTest: "kept", hidden: true });
@@ -249,17 +250,17 @@ export const start: Tab = {
         h(
           "div",
           { class: "start-head" },
-          h("h1", {}, "Where is the tool really, and is the part good?"),
-          h("p", { class: "muted" }, "Open an example, or a file of this folder."),
+          h("h1", {}, tr`Where is the tool really, and is the part good?`),
+          h("p", { class: "muted" }, tr`Open an example, or a file of this folder.`),
         ),
         cards(app, project),
       );
       fill(
         right,
-        h("h2", {}, "Files of this folder"),
+        h("h2", {}, tr`Files of this folder`),
         h("p", { class: "muted path" }, project.folder),
         app.has("describe")
-          ? h("button", { dataTest: "new-machine", onclick: () => newMachine(app) }, "A machine of my own …")
+          ? h("button", { dataTest: "new-machine", onclick: () => newMachine(app) }, tr`A machine of my own …`)
           : null,
         dropZone(app),
         kept,

@@ -1,5 +1,6 @@
 /** Is it as promised: readings against the machine file, calibrations, certificates, measured parts. */
 
+import { tr } from "../words/index.ts";
 import { split, type App, type Tab, type TabHandle } from "../app.ts";
 import type { FileKind, Request } from "../api.ts";
 import { fill, h, type Child } from "../dom.ts";
@@ -23,48 +24,51 @@ interface Subject {
 
 const SUBJECTS: Record<What, Subject> = {
   readings: {
-    title: "Readings",
-    words: "Do the readings agree with the machine file?",
-    label: "Comparison",
+    title: tr`Readings`,
+    words: tr`Do the readings agree with the machine file?`,
+    label: tr`Comparison`,
     kind: "comparison",
-    hint: "Choose a comparison: a TOML file with [compare] names the campaign, its readings and the decision rule.",
+    hint: tr`Choose a comparison: a TOML file with [compare] names the campaign, its readings and the decision rule.`,
   },
   diff: {
-    title: "Calibrations",
-    words: "Two calibrations: which errors have changed significantly?",
-    label: "Older machine file",
+    title: tr`Calibrations`,
+    words: tr`Two calibrations: which errors have changed significantly?`,
+    label: tr`Older machine file`,
     kind: "machine",
-    hint: "Choose two machine files of one machine, the older first.",
+    hint: tr`Choose two machine files of one machine, the older first.`,
   },
   history: {
-    title: "History",
-    words: "How do the figures change over the calibrations, and when is a limit reached?",
-    label: "Folder",
+    title: tr`History`,
+    words: tr`How do the figures change over the calibrations, and when is a limit reached?`,
+    label: tr`Folder`,
     kind: "machine",
-    hint: "Choose a folder with the machine files of one machine, one for each calibration, each with its date.",
+    hint: tr`Choose a folder with the machine files of one machine, one for each calibration, each with its date.`,
   },
   certificate: {
-    title: "Certificate",
-    words: "What does a compensation leave at poses that were not used for it?",
-    label: "Study",
+    title: tr`Certificate`,
+    words: tr`What does a compensation leave at poses that were not used for it?`,
+    label: tr`Study`,
     kind: "certificate",
-    hint: "Choose the study of a certificate: it names the compensation, the determination and the readings that validate it.",
+    hint: tr`Choose the study of a certificate: it names the compensation, the determination and the readings that validate it.`,
   },
   laser: {
-    title: "Laser",
-    words: "What does a laser read before and after a compensation?",
-    label: "Campaign",
+    title: tr`Laser`,
+    words: tr`What does a laser read before and after a compensation?`,
+    label: tr`Campaign`,
     kind: "campaign",
-    hint: "Choose a campaign of lasers, such as examples/07_verify/laser-before-after-x.toml.",
+    hint: tr`Choose a campaign of lasers, such as examples/07_verify/laser-before-after-x.toml.`,
   },
   part: {
-    title: "Part",
-    words: "Is a measured part within its tolerances, and was the prediction right?",
-    label: "Measured part",
+    title: tr`Part`,
+    words: tr`Is a measured part within its tolerances, and was the prediction right?`,
+    label: tr`Measured part`,
     kind: "measured",
-    hint: "Choose a file with [measured] or [cmm]: the test piece, its points or figures, the decision rule.",
+    hint: tr`Choose a file with [measured] or [cmm]: the test piece, its points or figures, the decision rule.`,
   },
 };
+
+/** Is typed the same in every language. */
+const LIMITS = "EC0X=40 urad; EXX=12 um";
 
 const WHATS = Object.keys(SUBJECTS) as What[];
 
@@ -141,7 +145,7 @@ class VerifyTab implements TabHandle {
     const subject = SUBJECTS[what];
     const kinds = h(
       "div",
-      { class: "group", role: "group", ariaLabel: "What is verified" },
+      { class: "group", role: "group", ariaLabel: tr`What is verified` },
       WHATS.map((key) =>
         h(
           "button",
@@ -160,7 +164,7 @@ class VerifyTab implements TabHandle {
     else {
       rows.push(this.fileRow(subject.label, "file", subject.kind, file, (path) => this.go({ file: path })));
       if (what === "diff")
-        rows.push(this.fileRow("Newer machine file", "new", "machine", now, (path) => this.go({ now: path })));
+        rows.push(this.fileRow(tr`Newer machine file`, "new", "machine", now, (path) => this.go({ now: path })));
     }
     const report =
       what === "diff"
@@ -207,8 +211,13 @@ class VerifyTab implements TabHandle {
     const folders = [...new Set([...(now ? [now] : []), ...this.folders()])];
     const select = h(
       "select",
-      { ariaLabel: "Folder", class: "file-select", dataTest: "file", onchange: () => this.go({ file: select.value }) },
-      now ? null : h("option", { value: "", disabled: true }, "Folder …"),
+      {
+        ariaLabel: tr`Folder`,
+        class: "file-select",
+        dataTest: "file",
+        onchange: () => this.go({ file: select.value }),
+      },
+      now ? null : h("option", { value: "", disabled: true }, tr`Folder …`),
       folders.map((folder) => h("option", { value: folder }, folder)),
     );
     select.value = now ?? "";
@@ -216,16 +225,16 @@ class VerifyTab implements TabHandle {
       type: "text",
       class: "short",
       value: limits,
-      placeholder: "EC0X=40 urad; EXX=12 um",
-      ariaLabel: "Limits of figures, separated by semicolons",
+      placeholder: LIMITS,
+      ariaLabel: tr`Limits of figures, separated by semicolons`,
       dataTest: "limits",
       onchange: () => this.go({ limits: limit.value.trim() }),
     });
     return h(
       "div",
       { class: "row" },
-      h("label", { class: "field grow" }, h("span", {}, "Folder"), select),
-      h("label", { class: "field" }, h("span", {}, "Limits"), limit),
+      h("label", { class: "field grow" }, h("span", {}, tr`Folder`), select),
+      h("label", { class: "field" }, h("span", {}, tr`Limits`), limit),
     );
   }
 
@@ -271,9 +280,9 @@ class VerifyTab implements TabHandle {
     // Coming back to the tab shows what is there.
     if (asked === this.asked) return;
     this.asked = asked;
-    this.say("Comparing …");
+    this.say(tr`Comparing …`);
     try {
-      const reply = await this.question.ask(body, `verifying ${file}`);
+      const reply = await this.question.ask(body, tr`verifying ${file}`);
       if (this.asked === asked) this.show(reply);
     } catch (error) {
       if (this.asked !== asked) return;
@@ -289,12 +298,12 @@ class VerifyTab implements TabHandle {
     fill(this.result, headPanel(reply.shown), reply.shown.sections.map(sectionPanel), remarksPanel(reply.diagnostics));
     this.figures = pictures(this.pictures, reply.document);
     if (this.figures.length === 0)
-      this.pictures.append(h("p", { class: "empty" }, "The figures are in the tables on the right."));
+      this.pictures.append(h("p", { class: "empty" }, tr`The figures are in the tables on the right.`));
     this.app.say(this.choice?.file ?? "");
   }
 }
 
 export const verify: Tab = {
-  title: "Verify",
+  title: tr`Verify`,
   mount: (host, app) => new VerifyTab(host, app),
 };

@@ -121,7 +121,7 @@ pub fn issue_text(machine: &Machine, issue: &Issue) -> String {
             value(*axis, issue.limit)
         ),
         IssueKind::OverSpeed { axis, near_pole, slows } => format!(
-            "over-speed: the feed needs {} of {}/s, its limit is {}/s{}; {}",
+            "over-speed: the feed needs {}/s of {}, its limit is {}/s{}; {}",
             value(*axis, issue.value),
             name(*axis),
             value(*axis, issue.limit),

@@ -3,7 +3,10 @@
 use crate::PrintError;
 use serde::Serialize;
 use std::borrow::Cow;
-use trueaxis_report::{Columns, Figure, Heading, Item, Report, Row, Section, Table, Verdict};
+use trueaxis_report::{
+    Columns, Figure, Heading, Item, Labels, Report, Row, Section, Standing, Table, Verdict,
+    filled as label,
+};
 
 /// Rows of a table on paper, some forty pages; more are read by programs.
 const MOST_ROWS: usize = 2000;
@@ -20,8 +23,17 @@ struct Content<'a> {
     logo: Option<String>,
     verdict: Option<&'a Verdict>,
     sections: Vec<Titled<'a>>,
-    signatures: &'a [String],
+    /// What stands below each line.
+    signatures: Vec<String>,
     made: String,
+    labels: Footer<'a>,
+}
+
+/// What the layout says on every page.
+#[derive(Serialize)]
+struct Footer<'a> {
+    language: &'a str,
+    page: &'a str,
 }
 
 #[derive(Serialize)]
@@ -61,6 +73,8 @@ enum Block<'a> {
 #[derive(Serialize)]
 struct Cells<'a> {
     cells: Vec<&'a str>,
+    /// Of those that are verdicts.
+    standings: Vec<Option<Standing>>,
     bold: bool,
 }
 
@@ -83,31 +97,41 @@ pub(super) fn files(report: &Report<'_>) -> Result<Files, PrintError> {
         files.push((name.clone(), logo.bytes.clone()));
         name
     });
+    let labels = &report.labels;
     let mut sections = Vec::new();
     for section in report.on_page() {
-        sections.push(titled(section, &mut files)?);
+        sections.push(titled(section, labels, &mut files)?);
     }
     let content = Content {
         title: &report.title,
         lines: &report.lines,
         number: &heading.number,
         entries: &heading.entries,
-        instruments: heading.table.as_ref().map(table),
+        instruments: heading.table.as_ref().map(|of| table(of, labels)),
         logo,
         verdict: report.verdict.as_ref(),
         sections,
-        signatures: &heading.signatures,
+        signatures: signatures(heading, labels),
         made: report.made_by(),
+        labels: Footer { language: &labels.language, page: &labels.page },
     };
     let json = serde_json::to_vec(&content).map_err(|e| PrintError(e.to_string()))?;
     files.push(("report.json".to_owned(), json));
     Ok(files)
 }
 
-fn titled<'a>(section: &'a Section<'_>, files: &mut Files) -> Result<Titled<'a>, PrintError> {
+fn signatures(heading: &Heading, labels: &Labels) -> Vec<String> {
+    heading.signatures.iter().map(|name| label(&labels.signature, &[name])).collect()
+}
+
+fn titled<'a>(
+    section: &'a Section<'_>,
+    labels: &Labels,
+    files: &mut Files,
+) -> Result<Titled<'a>, PrintError> {
     let mut items = Vec::new();
     for item in &section.items {
-        items.extend(block(&section.title, item, files)?);
+        items.extend(block(&section.title, item, labels, files)?);
     }
     Ok(Titled { title: &section.title, items })
 }
@@ -116,6 +140,7 @@ fn titled<'a>(section: &'a Section<'_>, files: &mut Files) -> Result<Titled<'a>,
 fn block<'a>(
     title: &'a str,
     item: &'a Item<'_>,
+    labels: &Labels,
     files: &mut Files,
 ) -> Result<Option<Block<'a>>, PrintError> {
     Ok(match item {
@@ -123,7 +148,7 @@ fn block<'a>(
         Item::Note(text) => Some(Block::Note { text }),
         Item::List(lines) => (!lines.is_empty()).then_some(Block::List { lines }),
         Item::Code(text) => Some(Block::Code { text }),
-        Item::Table(of) => (of.columns() > 0).then(|| table(of)),
+        Item::Table(of) => (of.columns() > 0).then(|| table(of, labels)),
         Item::Figures(_, figures) if figures.is_empty() => None,
         Item::Figures(columns, figures) => {
             let figures = figures.iter().map(|figure| drawn(title, figure, files));
@@ -151,13 +176,13 @@ fn drawn<'a>(
     Ok(Drawn { file, caption, alt, round: figure.round })
 }
 
-fn table(table: &Table) -> Block<'_> {
+fn table<'a>(table: &'a Table, labels: &Labels) -> Block<'a> {
     let columns = table.columns();
     Block::Table {
         headings: &table.headings,
         rows: table.rows.iter().take(MOST_ROWS).map(|row| filled(row, columns)).collect(),
         left: (0..columns).map(|i| table.has_words(i)).collect(),
-        note: note(table),
+        note: note(table, labels),
     }
 }
 
@@ -165,16 +190,17 @@ fn table(table: &Table) -> Block<'_> {
 fn filled(row: &Row, columns: usize) -> Cells<'_> {
     let mut cells: Vec<&str> = row.cells.iter().map(String::as_str).collect();
     cells.resize(columns, "");
-    Cells { cells, bold: row.bold }
+    let standings = (0..columns).map(|i| row.standing(i)).collect();
+    Cells { cells, standings, bold: row.bold }
 }
 
 /// What stands below a table, with what is not printed.
-fn note(table: &Table) -> Cow<'_, str> {
+fn note<'a>(table: &'a Table, labels: &Labels) -> Cow<'a, str> {
     match table.rows.len().saturating_sub(MOST_ROWS) {
         0 => Cow::Borrowed(&table.note),
-        more => format!("{} … and {more} more rows: the HTML report has them all.", table.note)
-            .trim_start()
-            .to_owned()
-            .into(),
+        more => {
+            let more = label(&labels.more_on_paper, &[&more.to_string()]);
+            format!("{} {more}", table.note).trim_start().to_owned().into()
+        }
     }
 }

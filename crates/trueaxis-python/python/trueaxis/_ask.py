@@ -3,8 +3,8 @@
 A path is a text or a ``pathlib.Path``. A quantity is a text with its unit (``"2 um"``) or, where the option states a
 unit, a plain number in that unit. Positions and temperatures may be mappings: ``{"X": 3000, "C": -90}``. Every function
 takes `report`, the file of a report (``.html``, ``.pdf`` where this build has it), `heading`, a TOML file with what stands
-above a report that is filed and signed (number, date, customer, operator), and `force`, which replaces files that this program
-did not write.
+above a report that is filed and signed (number, date, customer, operator), `language` (``en``, ``de``, ``zh``) of the report and
+of the text of the answer, and `force`, which replaces files that this program did not write.
 """
 
 from __future__ import annotations
@@ -31,6 +31,7 @@ _LISTS = frozenset(["diff", "files", "history", "limit", "score", "tolerance", "
 def ask(verb: str, given: Dict[str, Any]) -> Answer[Any]:
     """Puts a question; `given` are the arguments of the function that was called, by their names."""
     report, heading, force = given.pop("report"), given.pop("heading"), given.pop("force")
+    language = given.pop("language")
     memory: Dict[str, bytes] = {}
     options: Dict[str, Any] = {name.rstrip("_"): _option(name, value) for name, value in given.items()}
     machine = given.get("machine")
@@ -44,7 +45,7 @@ def ask(verb: str, given: Dict[str, Any]) -> Answer[Any]:
     for one, other in _NEED:
         if one in options and other in options:
             needs(options, one, other)
-    native = _native.ask(verb, options, memory, (path_of(report), path_of(heading)), bool(force))
+    native = _native.ask(verb, options, memory, (path_of(report), path_of(heading), language), bool(force))
     answer: Answer[Any] = Answer(native)
     warn(answer.diagnostics, 3)
     return answer

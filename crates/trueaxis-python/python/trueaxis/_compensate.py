@@ -32,6 +32,7 @@ def compensate_values(
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[documents.CompensateDocument]:
     """The values that the control must add, per axis and position: ``trueaxis compensate values``.
@@ -76,6 +77,7 @@ def compensate_program(
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[documents.CompensateProgramDocument]:
     """An NC program rewritten so that the actual tool follows the programmed path: ``trueaxis compensate program``.
@@ -115,6 +117,7 @@ def compensate_tables(
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[documents.CompensateTablesDocument]:
     """The tables of a control, read back, with the residual errors: ``trueaxis compensate tables``.
@@ -144,6 +147,7 @@ def compensate_adapt(
     cl: Optional[Path] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[documents.CompensateAdaptDocument]:
     """A path moved onto the blank that was measured, and the wall that remains: ``trueaxis compensate adapt``.
@@ -185,6 +189,7 @@ def post(
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[documents.PostDocument]:
     """Cutter locations to the NC program of one control: ``trueaxis post``.

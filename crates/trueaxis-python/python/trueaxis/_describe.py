@@ -26,6 +26,7 @@ def pose(
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[Any]:
     """Where the tool is, nominal and actual, and what each error contributes: ``trueaxis pose``.
@@ -60,6 +61,7 @@ def solve(
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[Any]:
     """Axis positions for a required position and direction of the tool, all solutions: ``trueaxis solve``.
@@ -85,6 +87,7 @@ def part(
     output: Optional[Path] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[documents.PartDocument]:
     """What a part file asks for, or a draft of one from a QIF file: ``trueaxis part``.
@@ -126,6 +129,7 @@ def simulate(
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[documents.SimulateDocument]:
     """An NC program on the actual machine: time, travel, deviations of the tool, issues: ``trueaxis simulate``.
@@ -178,6 +182,7 @@ def trace(
     log_time: Optional[Number] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[documents.TraceDocument]:
     """One block of a program through every stage of the simulation: ``trueaxis trace``.
@@ -211,6 +216,7 @@ def predict(
     compensated: bool = False,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[Any]:
     """Will the test piece or part be within tolerance, and what does each error contribute: ``trueaxis predict``.

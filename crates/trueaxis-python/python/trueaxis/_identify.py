@@ -20,6 +20,7 @@ def identify(
     check_conventions: bool = False,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[documents.IdentifyErrorsDocument]:
     """The errors of the machine from measurements, with their uncertainties: ``trueaxis identify``.
@@ -39,6 +40,7 @@ def identify_expansion(
     output: Optional[Path] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[Any]:
     """The expansion coefficient of scales from laser runs at several temperatures: ``trueaxis identify expansion``.
@@ -54,6 +56,7 @@ def identify_tables(
     output: Optional[Path] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[documents.IdentifyTablesDocument]:
     """Error tables and squareness from laser readings and ball-bar circles: ``trueaxis identify tables``.
@@ -69,6 +72,7 @@ def identify_surface(
     output: Optional[Path] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[documents.IdentifySurfaceDocument]:
     """The deviations of a surface from the hits of a probing program: ``trueaxis identify surface``.
@@ -84,6 +88,7 @@ def identify_thermal(
     score: Optional[Union[Path, Sequence[Path]]] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[documents.IdentifyThermalDocument]:
     """A linear model of an error that drifts with temperatures, from logs: ``trueaxis identify thermal``.
@@ -101,6 +106,7 @@ def identify_rtcp(
     output: Optional[Path] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[Any]:
     """The rotary centres for RTCP from readings at turned poses: ``trueaxis identify rtcp``.
@@ -124,6 +130,7 @@ def identify_probe(
     orientation: Optional[Number] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[Any]:
     """The offset of a stylus ball and its pre-travel by direction: ``trueaxis identify probe``.
@@ -145,6 +152,7 @@ def identify_tools(
     output: Optional[Path] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[documents.IdentifyToolsDocument]:
     """Length, diameter and wear of tools from the log of a tool setting: ``trueaxis identify tools``.

@@ -23,6 +23,7 @@ def measure(
     seed: Optional[int] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[Any]:
     """Readings of the instruments of a campaign on a virtual machine: ``trueaxis measure``.
@@ -46,6 +47,7 @@ def plan(
     output: Optional[Path] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[documents.PlanDocument]:
     """Which errors a measurement determines, with what uncertainty, and its programs: ``trueaxis plan``.
@@ -65,6 +67,7 @@ def plan_probe_surface(
     output: Optional[Path] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[documents.PlanProbeSurfaceDocument]:
     """A probing path over a surface without a collision: ``trueaxis plan probe-surface``.
@@ -83,6 +86,7 @@ def plan_tool_setting(
     output: Optional[Path] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[documents.PlanToolSettingDocument]:
     """The program that measures the tools of a set-up: ``trueaxis plan tool-setting``.
@@ -110,6 +114,7 @@ def evaluate(
     rule: Optional[str] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[Any]:
     """Readings by ISO 230 and related standards: ``trueaxis evaluate``.
@@ -139,6 +144,7 @@ def evaluate_form(
     u: Optional[str] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[documents.EvaluateFormDocument]:
     """Roundness, straightness, flatness, sphericity, cylindricity of points: ``trueaxis evaluate form``.
@@ -164,6 +170,7 @@ def verify(
     output: Optional[Path] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[Any]:
     """Readings against a prediction, calibrations, certificates, measured parts: ``trueaxis verify``.

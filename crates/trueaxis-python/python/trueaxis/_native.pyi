@@ -16,7 +16,7 @@ def ask(
     verb: str,
     options: Dict[str, Any],
     memory: Mapping[str, bytes],
-    report: Tuple[Optional[str], Optional[str]],
+    report: Tuple[Optional[str], Optional[str], str],
     force: bool,
 ) -> Answer: ...
 @final

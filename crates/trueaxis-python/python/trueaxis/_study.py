@@ -30,6 +30,7 @@ def study(
     table: Optional[Path] = None,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
+    language: str = "en",
     force: bool = False,
 ) -> Answer[documents.StudyDocument]:
     """How many machines hold the part on how many days, and what makes the variance: ``trueaxis study``.

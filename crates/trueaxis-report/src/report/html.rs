@@ -1,6 +1,8 @@
 //! A report as one self-contained page.
 
-use super::{Columns, Figure, Heading, Item, Logo, Report, Section, Standing, Table, Verdict};
+use super::{
+    Columns, Figure, Heading, Item, Labels, Logo, Report, Section, Standing, Table, Verdict, filled,
+};
 use crate::DrawingError;
 use crate::page::{THREE, document};
 use base64::Engine;
@@ -22,10 +24,10 @@ pub(super) fn html(report: &Report<'_>) -> Result<String, DrawingError> {
         @if let Some(heading) = heading { (self::heading(heading)) }
         @if let Some(v) = &report.verdict { (verdict(v)) }
         @for section in &sections { (section) }
-        @if let Some(heading) = heading { (signatures(heading)) }
+        @if let Some(heading) = heading { (signatures(heading, &report.labels)) }
         p.soft { (report.made_by()) }
     };
-    Ok(document(&report.title, &content))
+    Ok(document(&report.title, &report.labels, &content))
 }
 
 fn picture(logo: &Logo) -> Markup {
@@ -44,27 +46,30 @@ fn heading(heading: &Heading) -> Markup {
     }
 }
 
-fn signatures(heading: &Heading) -> Markup {
+fn signatures(heading: &Heading, labels: &Labels) -> Markup {
     html! {
         @if !heading.signatures.is_empty() {
             div.signatures { @for name in &heading.signatures {
-                div { (name) ": name, date, signature" }
+                div { (filled(&labels.signature, &[name])) }
             } }
         }
     }
 }
 
 fn verdict(verdict: &Verdict) -> Markup {
-    let class = match verdict.standing {
-        Standing::Good => "pass",
-        Standing::Bad => "fail",
-        Standing::Open => "undecided",
-    };
     html! {
-        section class={ "verdict " (class) } {
+        section class={ "verdict " (class(verdict.standing)) } {
             strong { (verdict.word) }
             span { (verdict.sentence) }
         }
+    }
+}
+
+fn class(standing: Standing) -> &'static str {
+    match standing {
+        Standing::Good => "pass",
+        Standing::Bad => "fail",
+        Standing::Open => "undecided",
     }
 }
 
@@ -100,10 +105,6 @@ fn table(table: &Table) -> Markup {
     let size = if columns > MANY_COLUMNS { "small" } else { "" };
     let sides: Vec<&str> =
         (0..columns).map(|i| if table.has_words(i) { "text-align:left" } else { "" }).collect();
-    let class = |cell: &str| match cell {
-        "pass" | "fail" | "undecided" => Some(cell.to_owned()),
-        _ => None,
-    };
     html! {
         div.scroll { table class=(size) {
             @if !table.headings.is_empty() {
@@ -112,8 +113,8 @@ fn table(table: &Table) -> Markup {
                 } } }
             }
             tbody { @for row in &table.rows { tr.decisive[row.bold] {
-                @for (cell, side) in row.cells.iter().zip(&sides) {
-                    td class=[class(cell)] style=(side) { (cell) }
+                @for (i, (cell, side)) in row.cells.iter().zip(&sides).enumerate() {
+                    td class=[row.standing(i).map(class)] style=(side) { (cell) }
                 }
             } } }
         } }

@@ -1,5 +1,7 @@
 //! A table of a report.
 
+use super::Standing;
+
 /// A row of a table.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Row {
@@ -7,6 +9,20 @@ pub struct Row {
     pub cells: Vec<String>,
     /// Whether it stands out: a chosen or decisive one.
     pub bold: bool,
+    /// What the cells stand for, where their words no longer say it.
+    pub standings: Vec<Option<Standing>>,
+}
+
+impl Row {
+    /// Whether a cell is a verdict, which is coloured.
+    pub fn standing(&self, column: usize) -> Option<Standing> {
+        match self.cells.get(column)?.as_str() {
+            "pass" => Some(Standing::Good),
+            "fail" => Some(Standing::Bad),
+            "undecided" => Some(Standing::Open),
+            _ => *self.standings.get(column)?,
+        }
+    }
 }
 
 /// A table; the first column is text.
@@ -78,7 +94,8 @@ impl Table {
 
     /// Adds a row.
     pub fn push<T: Into<String>>(&mut self, cells: impl IntoIterator<Item = T>) {
-        self.rows.push(Row { cells: cells.into_iter().map(Into::into).collect(), bold: false });
+        let cells = cells.into_iter().map(Into::into).collect();
+        self.rows.push(Row { cells, ..Row::default() });
     }
 
     /// How many columns it has.

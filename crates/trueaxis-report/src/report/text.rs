@@ -1,6 +1,6 @@
 //! A report on the terminal.
 
-use super::{Item, Report, Section, Table};
+use super::{Item, Labels, Report, Section, Table, filled};
 
 /// Paragraphs are broken here; with their indent they fit into 100 columns.
 const WIDTH: usize = 98;
@@ -15,12 +15,12 @@ pub(super) fn text(report: &Report<'_>) -> String {
         out += &format!("\n{}{joint}{}\n", verdict.word, verdict.sentence);
     }
     for section in report.sections.iter().filter(|s| s.shows(true)) {
-        write_section(&mut out, section);
+        write_section(&mut out, section, &report.labels);
     }
     out
 }
 
-fn write_section(out: &mut String, section: &Section<'_>) {
+fn write_section(out: &mut String, section: &Section<'_>, labels: &Labels) {
     out.push('\n');
     if !section.title.is_empty() {
         out.push_str(&section.title);
@@ -41,7 +41,7 @@ fn write_section(out: &mut String, section: &Section<'_>) {
                 if section.items[..i].iter().any(|item| matches!(item, Item::Table(_))) {
                     out.push('\n');
                 }
-                write_table(out, table);
+                write_table(out, table, labels);
             }
             Item::Figures(..) => {}
         }
@@ -82,7 +82,7 @@ fn wrapped(out: &mut String, text: &str, mark: &str) {
     }
 }
 
-fn write_table(out: &mut String, table: &Table) {
+fn write_table(out: &mut String, table: &Table, labels: &Labels) {
     let headings = (!table.headings.is_empty()).then_some(&table.headings);
     let rows = table.rows.iter().take(table.most_on_terminal).map(|row| &row.cells);
     let shown: Vec<&Vec<String>> = headings.into_iter().chain(rows).collect();
@@ -106,7 +106,7 @@ fn write_table(out: &mut String, table: &Table) {
         put(out, &line);
     }
     if let Some(more) = table.rows.len().checked_sub(table.most_on_terminal).filter(|n| *n > 0) {
-        put(out, &format!("… and {more} more; --format json has all"));
+        put(out, &filled(&labels.more_rows, &[&more.to_string()]));
     }
     wrapped(out, &table.note, "");
 }
@@ -122,7 +122,7 @@ mod tests {
 
     fn table_text(table: &Table) -> String {
         let mut out = String::new();
-        write_table(&mut out, table);
+        write_table(&mut out, table, &Labels::default());
         out
     }
 

@@ -115,7 +115,7 @@ fn compensated(program: &Path) -> PathBuf {
 }
 
 impl CompensateProgramRequest {
-    fn question(&self, desk: &Desk) -> Result<CompensateProgram, Refusal> {
+    pub(super) fn question(&self, desk: &Desk) -> Result<CompensateProgram, Refusal> {
         let program = desk.project.path(&self.program)?;
         let setup = self.setup.as_ref().map(|name| desk.project.path(name)).transpose()?;
         let micrometre = || "1 um".to_owned();
@@ -289,30 +289,36 @@ pub(super) struct CompensateTablesAnswer<'a> {
     diagnostics: Vec<DiagnosticEntry<'a>>,
 }
 
-impl Request for CompensateTablesRequest {
-    type Answer<'a> = CompensateTablesAnswer<'a>;
-
-    fn answer(self, desk: &Desk, job: &Job) -> Result<Reply<Self>, Refusal> {
+impl CompensateTablesRequest {
+    pub(super) fn question(&self, desk: &Desk) -> Result<CompensateTables, Refusal> {
         let known = TARGETS.iter().find(|(target, _)| target.control().key() == self.target);
         let Some((target, _)) = known else {
             let all = TARGETS.map(|(target, _)| target.control().key()).join(", ");
             return Err(Refusal::bad(format!("unknown target `{}`", short(&self.target)), &all));
         };
         let piece = self.piece.as_ref().map(|name| desk.project.path(name)).transpose()?;
-        let filled = |text: Option<String>| text.filter(|text| !text.trim().is_empty());
-        let question = CompensateTables {
-            machine: choice(desk, &self.machine, self.temperature)?,
+        let filled = |text: &Option<String>| text.clone().filter(|text| !text.trim().is_empty());
+        Ok(CompensateTables {
+            machine: choice(desk, &self.machine, self.temperature.clone())?,
             target: *target,
             output: desk.project.new_folder(&self.machine, &self.target),
-            at: filled(self.at),
-            bound: filled(self.bound).unwrap_or_else(|| "1 um".to_owned()),
+            at: filled(&self.at),
+            bound: filled(&self.bound).unwrap_or_else(|| "1 um".to_owned()),
             bound_angle: "5 urad".to_owned(),
             limit: "1 mm".to_owned(),
             limit_angle: "1000 urad".to_owned(),
             no_kinematics: self.no_kinematics.unwrap_or(false),
             piece,
             machine_only: self.machine_only.unwrap_or(false),
-        };
+        })
+    }
+}
+
+impl Request for CompensateTablesRequest {
+    type Answer<'a> = CompensateTablesAnswer<'a>;
+
+    fn answer(self, desk: &Desk, job: &Job) -> Result<Reply<Self>, Refusal> {
+        let question = self.question(desk)?;
         let from = versions(desk, [&self.machine].into_iter().chain(&self.piece));
         let (Made { document, shown, made }, problems) = made(&question, (desk, job), from)?;
         let diagnostics = entries(&problems);
@@ -419,22 +425,28 @@ pub(super) struct CompensateAdaptAnswer<'a> {
     diagnostics: Vec<DiagnosticEntry<'a>>,
 }
 
-impl Request for CompensateAdaptRequest {
-    type Answer<'a> = CompensateAdaptAnswer<'a>;
-
-    fn answer(self, desk: &Desk, job: &Job) -> Result<Reply<Self>, Refusal> {
+impl CompensateAdaptRequest {
+    pub(super) fn question(&self, desk: &Desk) -> Result<Adapt, Refusal> {
         let study = desk.project.path(&self.study)?;
         let stem = study.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         // The library refuses a control that it does not know.
         let ending = |name: &str| control_named(name).map_or("nc", extension);
         let beside = |ending: &str| study.with_file_name(format!("{stem}-adapted.{ending}"));
-        let question = Adapt {
-            output: self.control.map(|control| (beside(ending(&control)), control)),
+        Ok(Adapt {
+            output: self.control.clone().map(|control| (beside(ending(&control)), control)),
             tcp: true,
             tolerance: "0.001".to_owned(),
             cl: Some(beside("cls")),
             study: study.clone(),
-        };
+        })
+    }
+}
+
+impl Request for CompensateAdaptRequest {
+    type Answer<'a> = CompensateAdaptAnswer<'a>;
+
+    fn answer(self, desk: &Desk, job: &Job) -> Result<Reply<Self>, Refusal> {
+        let question = self.question(desk)?;
         let from = versions(desk, [&self.study]);
         let (Made { document, shown, made }, problems) = made(&question, (desk, job), from)?;
         let diagnostics = entries(&problems);

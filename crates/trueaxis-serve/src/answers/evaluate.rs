@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use trueaxis::files::disk;
 use trueaxis::input::Files;
 use trueaxis::questions::{Answer, Evaluate, ReadingsFile};
-use trueaxis::report::{DiagnosticEntry, EvaluationDocument, Picture, Table};
+use trueaxis::report::{DiagnosticEntry, English, EvaluationDocument, Picture, Table};
 use trueaxis::verify::Standard;
 use trueaxis::verify::columns::Column;
 use trueaxis::verify::import::Import;
@@ -286,7 +286,7 @@ impl Request for EvaluateRequest {
                 document: EvaluationDocument::of(&evaluation),
                 diagnostics: entries(&problems),
             },
-            text: evaluated.text(),
+            text: evaluated.text(&English),
             conditions_file: file.and_then(|path| desk.project.name_of(path)),
             figures: contents.results.iter().map(TableEntry::from).collect(),
             details: contents.details.iter().map(TableEntry::from).collect(),

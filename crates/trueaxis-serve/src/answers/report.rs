@@ -1,5 +1,8 @@
 //! The pages of the command line, kept for the page to show.
 
+use super::compensate::{
+    CompensateAdaptRequest, CompensateProgramRequest, CompensateTablesRequest,
+};
 use super::evaluate::EvaluateRequest;
 use super::plan::SINUMERIK;
 use super::simulate_document::SimulateRequest;
@@ -8,16 +11,19 @@ use crate::desk::{Desk, Job, KeptReport};
 use crate::refusal::{Refusal, entries};
 use crate::request::{Reply, Request, ask};
 use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 use std::path::PathBuf;
 use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Place};
 use trueaxis::questions::{
-    Answer, Certify, CompareCalibrations, Identify, LaserBeforeAfter, PlanMeasurement, Predict,
-    Question, Simulate, VerifyHistory, VerifyPart, VerifyReadings,
+    Answer, Certify, CompareCalibrations, Identify, IdentifyRtcp, LaserBeforeAfter,
+    PlanMeasurement, Predict, Question, Simulate, VerifyHistory, VerifyPart, VerifyReadings,
 };
 use trueaxis::report::{DiagnosticEntry, Report};
 use trueaxis_paper::{Form, Heading, PrintError, missing_glyphs, print, read_heading, today};
+use trueaxis_words::Tongue;
 
 /// Makes a report.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -45,13 +51,17 @@ pub(super) struct ReportRequest {
     feature: Option<String>,
     /// The control of the programs, for `plan`.
     dialect: Option<String>,
+    /// What else is asked, by the names of the requests `compensate-program`, `compensate-tables` and `compensate-adapt`.
+    options: Option<Map<String, Value>>,
     /// The file of its heading, to be filed and signed.
     heading: Option<String>,
+    /// Its language: `en`, `de` or `zh`; `en` where it is not stated.
+    language: Option<String>,
 }
 
 /// A command that has a report.
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "kebab-case")]
 enum Verb {
     /// A test piece or holes.
     Predict,
@@ -75,6 +85,14 @@ enum Verb {
     Laser,
     /// A measured test piece.
     Part,
+    /// An NC program, compensated.
+    CompensateProgram,
+    /// Tables of a control.
+    CompensateTables,
+    /// A path on a measured blank.
+    CompensateAdapt,
+    /// The rotary centres in the control.
+    Rtcp,
 }
 
 impl Verb {
@@ -91,6 +109,10 @@ impl Verb {
             Self::Certificate => "certificate",
             Self::Laser => "laser",
             Self::Part => "part",
+            Self::CompensateProgram => "compensate-program",
+            Self::CompensateTables => "compensate-tables",
+            Self::CompensateAdapt => "compensate-adapt",
+            Self::Rtcp => "rtcp",
         }
     }
 }
@@ -118,6 +140,7 @@ impl Request for ReportRequest {
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
         let name = format!("{stem}-{}.html", self.verb.name());
         let mut problems = Diagnostics::new();
+        let language = tongue(self.language.as_deref())?;
         let heading = match &self.heading {
             Some(file) => {
                 let read = read_heading(&disk(), &desk.project.path(file)?, &mut problems);
@@ -125,7 +148,8 @@ impl Request for ReportRequest {
             }
             None => None,
         };
-        let Made { html, pdf, missing } = self.made(desk, path, job, heading)?;
+        let Made { html, pdf, missing } =
+            self.made(desk, path, job, Frame { heading, language })?;
         if !missing.is_empty() {
             missing_glyphs(&missing, Place::whole(&name), &mut problems);
         }
@@ -138,6 +162,20 @@ impl Request for ReportRequest {
     }
 }
 
+/// What is around the answer of a report.
+struct Frame {
+    heading: Option<Heading>,
+    language: Tongue,
+}
+
+fn tongue(code: Option<&str>) -> Result<Tongue, Refusal> {
+    let Some(code) = code else { return Ok(Tongue::English) };
+    Tongue::named(code).ok_or_else(|| {
+        let message = format!("no report is written in `{code}`");
+        Refusal::new(422, "unknown-language", message, "the languages are en, de and zh")
+    })
+}
+
 /// A report in all forms that this build prints.
 struct Made {
     html: Vec<u8>,
@@ -146,27 +184,19 @@ struct Made {
 }
 
 impl ReportRequest {
-    fn made(
-        self,
-        desk: &Desk,
-        file: PathBuf,
-        job: &Job,
-        heading: Option<Heading>,
-    ) -> Result<Made, Refusal> {
+    fn made(self, desk: &Desk, file: PathBuf, job: &Job, frame: Frame) -> Result<Made, Refusal> {
         match self.verb {
-            Verb::Predict => made(&Predict { study: file, ..Predict::default() }, job, heading),
+            Verb::Predict => made(&Predict { study: file, ..Predict::default() }, job, frame),
             Verb::Simulate => {
                 let machine = needed(self.machine, "machine")?;
                 let question = SimulateRequest::of(machine, self.file).question(desk, job)?;
-                made(&Simulate { pictures: true, ..question }, job, heading)
+                made(&Simulate { pictures: true, ..question }, job, frame)
             }
             Verb::Plan => {
                 let control = self.dialect.unwrap_or_else(|| SINUMERIK.to_owned());
-                made(&PlanMeasurement { campaign: file, control, output: None }, job, heading)
+                made(&PlanMeasurement { campaign: file, control, output: None }, job, frame)
             }
-            Verb::Identify => {
-                made(&Identify { campaign: file, ..Identify::default() }, job, heading)
-            }
+            Verb::Identify => made(&Identify { campaign: file, ..Identify::default() }, job, frame),
             Verb::Evaluate => {
                 let standard = needed(self.standard, "standard")?;
                 let request = EvaluateRequest {
@@ -179,27 +209,58 @@ impl ReportRequest {
                     ..EvaluateRequest::of(standard, self.file)
                 };
                 let (question, _) = request.question(desk)?;
-                made(&question, job, heading)
+                made(&question, job, frame)
             }
-            Verb::Verify => made(&VerifyReadings { file }, job, heading),
+            Verb::Verify => made(&VerifyReadings { file }, job, frame),
             Verb::Diff => {
                 let old = desk.project.path(&needed(self.machine, "machine")?)?;
-                made(&CompareCalibrations { old, new: file }, job, heading)
+                made(&CompareCalibrations { old, new: file }, job, frame)
             }
             Verb::History => {
                 let files = desk.project.in_folder(&self.file, &["toml", "json"])?;
-                made(&VerifyHistory { files, limits: Vec::new() }, job, heading)
+                made(&VerifyHistory { files, limits: Vec::new() }, job, frame)
             }
-            Verb::Certificate => made(&Certify { study: file }, job, heading),
-            Verb::Laser => made(&LaserBeforeAfter { campaign: file, output: None }, job, heading),
-            Verb::Part => made(&VerifyPart { file }, job, heading),
+            Verb::Certificate => made(&Certify { study: file }, job, frame),
+            Verb::Laser => made(&LaserBeforeAfter { campaign: file, output: None }, job, frame),
+            Verb::Part => made(&VerifyPart { file }, job, frame),
+            Verb::CompensateProgram => {
+                let machine = needed(self.machine, "machine")?;
+                let fixed = [("program", self.file), ("machine", machine)];
+                let request: CompensateProgramRequest = with(self.options, fixed)?;
+                made(&request.question(desk)?, job, frame)
+            }
+            Verb::CompensateTables => {
+                let request: CompensateTablesRequest =
+                    with(self.options, [("machine", self.file)])?;
+                made(&request.question(desk)?, job, frame)
+            }
+            Verb::CompensateAdapt => {
+                let request: CompensateAdaptRequest = with(self.options, [("study", self.file)])?;
+                made(&request.question(desk)?, job, frame)
+            }
+            Verb::Rtcp => made(&IdentifyRtcp { study: file, output: None }, job, frame),
         }
     }
 }
 
-fn made<Q: Question>(question: &Q, job: &Job, heading: Option<Heading>) -> Result<Made, Refusal> {
+/// The request with these names: what was chosen, and what the report itself names.
+fn with<T: DeserializeOwned, const N: usize>(
+    options: Option<Map<String, Value>>,
+    fixed: [(&str, String); N],
+) -> Result<T, Refusal> {
+    let mut body = options.unwrap_or_default();
+    body.extend(fixed.map(|(name, value)| (name.to_owned(), Value::String(value))));
+    let hint = "options are those of the request of the same name";
+    serde_json::from_value(Value::Object(body)).map_err(|e| Refusal::bad(e.to_string(), hint))
+}
+
+fn made<Q: Question>(question: &Q, job: &Job, frame: Frame) -> Result<Made, Refusal> {
     let answer = ask(question, job)?.0;
-    let report = || Report { heading: heading.clone(), date: today(), ..answer.report() };
+    let Frame { heading, language } = frame;
+    let report = || {
+        let report = Report { heading: heading.clone(), date: today(), ..answer.report() };
+        report.in_language(language.language())
+    };
     let html = print(&report(), Form::Html).map_err(|e| unprinted(&e))?.bytes;
     if !Form::Pdf.is_there() {
         return Ok(Made { html, pdf: None, missing: String::new() });

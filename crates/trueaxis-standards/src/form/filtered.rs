@@ -50,13 +50,16 @@ fn enough(
 ) -> Option<()> {
     let message = format!("{points_per_wave:.1} points for each {what} at the cut-off");
     let place = Place::whole(request.file);
-    let hint = "7 are recommended (ISO 12181-2): measure more points, or take a lower cut-off";
+    // Fewer undulations, longer waves.
+    let other = if what == "wave" { "longer" } else { "lower" };
+    let hint =
+        format!("7 are recommended (ISO 12181-2): measure more points, or take a {other} cut-off");
     if points_per_wave < 2.0 {
-        problems.error("filter-points", place, message, hint);
+        problems.error("filter-points", place, message, &hint);
         return None;
     }
     if points_per_wave < POINTS_PER_UNDULATION {
-        problems.warn("filter-points", place, message, hint);
+        problems.warn("filter-points", place, message, &hint);
     }
     Some(())
 }

@@ -163,7 +163,7 @@ pub(super) fn scatter(m: &Measurement, r: &Positioning) -> Picture {
     let mean = mean.filter_map(|p| Some((place(r.kind, p.target), p.mean()? * scale)));
     let thinned = match step {
         1 => String::new(),
-        n => format!(" Every {n}th reading is drawn."),
+        n => format!(" One reading in {n} is drawn."),
     };
     Picture::Scatter(Scatter {
         title: "Deviations at the targets".to_owned(),

@@ -13,7 +13,7 @@ use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::describe::{axis_index, to_inner, warn_beyond_travel};
 use trueaxis_machine::errors::ErrorValues;
 use trueaxis_machine::{Deviation, Machine};
-use trueaxis_report::{Report, Section, document};
+use trueaxis_report::{English, Language, Report, Section, document};
 
 /// The tool at one position of the axes, or at many: nominal and actual.
 #[derive(Debug, Clone)]
@@ -201,20 +201,22 @@ impl Answer for PoseAnswer {
     fn report(&self) -> Report<'_> {
         match self {
             Self::One(found) => report::pose_report(&found.shown()),
-            Self::Rows(_) => Report::new("Poses").section(Section::new("").code(self.text())),
+            Self::Rows(_) => {
+                Report::new("Poses").section(Section::new("").code(self.text(&English)))
+            }
         }
     }
 
-    fn text(&self) -> String {
+    fn text(&self, language: &dyn Language) -> String {
         let mut text = Vec::new();
-        let _ = self.write_text(&mut text);
+        let _ = self.write_text(language, &mut text);
         String::from_utf8_lossy(&text).into_owned()
     }
 
     /// The poses of a table are a table again.
-    fn write_text(&self, out: &mut dyn io::Write) -> io::Result<()> {
+    fn write_text(&self, language: &dyn Language, out: &mut dyn io::Write) -> io::Result<()> {
         match self {
-            Self::One(_) => out.write_all(self.report().text().as_bytes()),
+            Self::One(_) => out.write_all(self.report().in_language(language).text().as_bytes()),
             Self::Rows(table) => table.write_csv(out),
         }
     }

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use table::{PathTable, bodies_table};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_motion::{Collisions, Findings, Job, Machining, Observer, Progress, Series};
-use trueaxis_report::{Report, document};
+use trueaxis_report::{Language, Report, document};
 
 /// An NC program on the actual machine: path, time, deviations, issues.
 #[derive(Debug, Clone, Default)]
@@ -190,8 +190,8 @@ impl Answer for Simulated {
     }
 
     /// Without pictures and their captions.
-    fn text(&self) -> String {
-        report::simulation_report(self.shown(), None).text()
+    fn text(&self, language: &dyn Language) -> String {
+        report::simulation_report(self.shown(), None).in_language(language).text()
     }
 
     fn is_yes(&self) -> bool {

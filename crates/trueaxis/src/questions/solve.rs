@@ -11,7 +11,7 @@ use trueaxis_input::{CsvTable, Diagnostics, Files, Place};
 use trueaxis_machine::axis::Command;
 use trueaxis_machine::describe::to_shown;
 use trueaxis_machine::{FollowError, FollowFault, Machine, Solutions, SolveError, Target};
-use trueaxis_report::{Report, Section};
+use trueaxis_report::{English, Language, Report, Section};
 
 /// Positions of the axes for a pose of the tool, or for a path.
 #[derive(Debug, Clone)]
@@ -224,15 +224,18 @@ impl Answer for SolveAnswer {
         match self {
             Self::Pose(machine, solved) => report::solve_report(machine, solved),
             Self::Path(machine, _) => {
-                let section = Section::new("Axis positions, mm and degrees").code(self.text());
+                let section =
+                    Section::new("Axis positions, mm and degrees").code(self.text(&English));
                 Report::new(machine.name()).section(section)
             }
         }
     }
 
     /// A path is a table again.
-    fn text(&self) -> String {
-        let Self::Path(machine, commands) = self else { return self.report().text() };
+    fn text(&self, language: &dyn Language) -> String {
+        let Self::Path(machine, commands) = self else {
+            return self.report().in_language(language).text();
+        };
         let names: Vec<String> = machine.axes().iter().map(|a| a.name.to_string()).collect();
         let row = |command: &Command| {
             let values = command.iter().take(names.len()).enumerate();

@@ -17,7 +17,7 @@ use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::describe::{axis_index, to_inner, to_shown};
 use trueaxis_machine::heat::Conditions;
 use trueaxis_predict::predict::holes::Compensation;
-use trueaxis_report::Report;
+use trueaxis_report::{English, Language, Report};
 
 /// Values per axis and position, in least increments. Texts are as typed.
 #[derive(Debug, Clone)]
@@ -267,10 +267,10 @@ impl Question for CompensateValues {
 
 impl ValuesAnswer {
     /// In the form that was asked for.
-    fn written(&self) -> String {
+    fn written(&self, language: &dyn Language) -> String {
         let Self { machine, tables, .. } = self;
         match self.form {
-            ValuesForm::Text => self.report().text(),
+            ValuesForm::Text => self.report().in_language(language).text(),
             ValuesForm::Json => format!("{:#}\n", self.json()),
             ValuesForm::Csv => {
                 let price = self.price.as_deref().map(workpiece::heading);
@@ -296,12 +296,12 @@ impl Answer for ValuesAnswer {
         workpiece::on_top(report, self.price.as_deref())
     }
 
-    fn text(&self) -> String {
-        if self.output.is_some() { String::new() } else { self.written() }
+    fn text(&self, language: &dyn Language) -> String {
+        if self.output.is_some() { String::new() } else { self.written(language) }
     }
 
     fn files(&mut self) -> Vec<NewFile> {
-        let file = |path| NewFile::of("values", path, self.written());
+        let file = |path| NewFile::of("values", path, self.written(&English));
         self.output.iter().map(file).collect()
     }
 }

@@ -5,7 +5,10 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::AxisKind;
 use trueaxis_machine::describe::to_shown;
 use trueaxis_motion::{Job, Trace, TracedNode};
-use trueaxis_nc::moves::{Axis, Event, FeedMode, Frame, Move, MoveKind, OrientationPath, Step};
+use trueaxis_nc::moves::{
+    Axis, CompensationSide, Coolant, Event, FeedMode, Frame, Move, MoveKind, OrientationPath,
+    PathControl, Plane, SpindleDirection, Step,
+};
 use trueaxis_report::numbers::fixed;
 use trueaxis_report::{Report, Section, Table};
 
@@ -97,7 +100,49 @@ fn event_text(event: &Event) -> String {
         Event::ToolChange(tool) => format!("tool {tool} into the spindle"),
         Event::ToolSelect(tool) => format!("tool {tool} is prepared"),
         Event::SpindleSpeed(speed) => format!("S {speed} 1/min"),
-        other => format!("{other:?}"),
+        Event::SpindleOrient { angle_deg } => format!("spindle oriented to {angle_deg} deg"),
+        Event::WorkOffset { index, .. } => format!("work offset {index}"),
+        Event::ToolName(name) => format!("tool: {name}"),
+        Event::Orientation(path) => format!("tool axis led by {}", orientation(path)),
+        Event::Compensation { side, radius_mm } => compensation(*side, *radius_mm),
+        Event::Path { control: PathControl::Continuous, tolerance_mm } => {
+            format!("corners rounded within {tolerance_mm} mm")
+        }
+        Event::Log(text) => format!("log: {text}"),
+        other => state_text(other).to_owned(),
+    }
+}
+
+fn compensation(side: CompensationSide, radius_mm: f64) -> String {
+    match side {
+        CompensationSide::Off => "radius compensation off".to_owned(),
+        CompensationSide::Left => format!("radius compensation left, {radius_mm} mm"),
+        CompensationSide::Right => format!("radius compensation right, {radius_mm} mm"),
+    }
+}
+
+/// What has no value of its own.
+fn state_text(event: &Event) -> &'static str {
+    match event {
+        Event::Spindle(SpindleDirection::Stopped) => "spindle stopped",
+        Event::Spindle(SpindleDirection::Clockwise) => "spindle clockwise",
+        Event::Spindle(SpindleDirection::CounterClockwise) => "spindle counter-clockwise",
+        Event::Coolant(Coolant::Mist) => "coolant as mist",
+        Event::Coolant(Coolant::Flood) => "coolant on",
+        Event::Coolant(Coolant::Off) => "coolant off",
+        Event::Path { control: PathControl::ExactStop, .. } => "stop at each corner",
+        Event::Path { .. } => "corners as programmed",
+        Event::Plane(Plane::Xy) => "plane XY",
+        Event::Plane(Plane::Zx) => "plane ZX",
+        Event::Plane(Plane::Yz) => "plane YZ",
+        Event::Shift(_) => "shift of the axes",
+        Event::ToolLength(_) => "tool length",
+        Event::Frame(_) => "frame",
+        Event::Stock { .. } => "stock stated",
+        Event::Stop { optional: true } => "optional stop",
+        Event::Stop { optional: false } => "stop",
+        Event::End => "end of the program",
+        _ => "block",
     }
 }
 

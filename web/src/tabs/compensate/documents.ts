@@ -1,5 +1,6 @@
 /** What is chosen on the tab, and the answers of the server. */
 
+import { tr } from "../../words/index.ts";
 import type {
   ServeCompensateAdapt,
   ServeCompensateProgram,
@@ -16,10 +17,10 @@ export type AdaptReply = ServeCompensateAdapt;
 export type Of = "program" | "tables" | "values" | "blank";
 
 export const KINDS: readonly [Of, string][] = [
-  ["program", "NC program"],
-  ["tables", "Tables of a control"],
-  ["values", "Values of an axis"],
-  ["blank", "Path on a blank"],
+  ["program", tr`NC program`],
+  ["tables", tr`Tables of a control`],
+  ["values", tr`Values of an axis`],
+  ["blank", tr`Path on a blank`],
 ];
 
 /** What stands in the address. */

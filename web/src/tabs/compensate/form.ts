@@ -1,5 +1,6 @@
 /** What is compensated, for which machine, with which options. */
 
+import { tr, trText } from "../../words/index.ts";
 import type { App } from "../../app.ts";
 import type { FileKind } from "../../api.ts";
 import { h, type Child } from "../../dom.ts";
@@ -22,32 +23,32 @@ const OPTIONS: readonly Option[] = [
   {
     key: "flat",
     of: ["program"],
-    words: "unroll loops and subprograms first",
-    hint: "--flat: loops, subprograms, repeated parts and computed numbers become one flat program",
+    words: tr`unroll loops and subprograms first`,
+    hint: tr`--flat: loops, subprograms, repeated parts and computed numbers become one flat program`,
   },
   {
     key: "position-only",
     of: ["program"],
-    words: "tip only",
-    hint: "--position-only: only the tip is corrected, with the linear axes",
+    words: tr`tip only`,
+    hint: tr`--position-only: only the tip is corrected, with the linear axes`,
   },
   {
     key: "keep-unproved",
     of: ["program"],
-    words: "also a program that is not proved",
-    hint: "--keep-unproved: it is marked in its heading, and has another name",
+    words: tr`also a program that is not proved`,
+    hint: tr`--keep-unproved: it is marked in its heading, and has another name`,
   },
   {
     key: "no-kinematics",
     of: ["tables"],
-    words: "tables only, no kinematic parameters",
-    hint: "--no-kinematics: rotary centres and tilts are left to the tables",
+    words: tr`tables only, no kinematic parameters`,
+    hint: tr`--no-kinematics: rotary centres and tilts are left to the tables`,
   },
   {
     key: "machine-only",
     of: ["program", "tables", "values"],
-    words: "machine alone, without a part",
-    hint: "--machine-only: although the workpiece grows and its temperature is not given",
+    words: tr`machine alone, without a part`,
+    hint: tr`--machine-only: although the workpiece grows and its temperature is not given`,
   },
 ];
 
@@ -90,12 +91,13 @@ function input(
 function file(
   app: App,
   label: string,
+  test: string,
   kinds: readonly FileKind[],
   now: string | null,
   choose: (path: string) => void,
 ): HTMLElement {
   const element = fileSelect(app, label, "none", (one) => kinds.includes(one.kind), now, choose);
-  element.dataset.test = label.toLowerCase();
+  element.dataset.test = test;
   return h("label", { class: "field grow" }, h("span", {}, label), element);
 }
 
@@ -130,22 +132,24 @@ function programFields(app: App, choice: Choice, go: (change: Partial<Choice>) =
       "div",
       { class: "row" },
       // The set-up and the control of one program are not those of another.
-      file(app, "Program", ["program"], choice.program, (program) => go({ program, setup: null, control: null })),
+      file(app, tr`Program`, "program", ["program"], choice.program, (program) =>
+        go({ program, setup: null, control: null }),
+      ),
     ),
     h(
       "div",
       { class: "row" },
       select(
-        "Set-up",
+        tr`Set-up`,
         "setup",
-        [["", "beside the program"], ...setup.map((path): [string, string] => [path, path])],
+        [["", tr`beside the program`], ...setup.map((path): [string, string] => [path, path])],
         choice.setup ?? "",
         (value) => go({ setup: value || null }),
       ),
-      select("Control", "control", [["", "automatic"], ...CONTROLS], choice.control ?? "", (value) =>
+      select(tr`Control`, "control", [["", tr`automatic`], ...CONTROLS], choice.control ?? "", (value) =>
         go({ control: value || null }),
       ),
-      input("Residual", "residual", choice.residual, "1 um", (residual) => go({ residual })),
+      input(tr`Residual`, "residual", choice.residual, "1 um", (residual) => go({ residual })),
     ),
   ];
 }
@@ -155,13 +159,13 @@ function tablesFields(targets: readonly Target[], choice: Choice, go: (change: P
     "div",
     { class: "row" },
     select(
-      "Control",
+      tr`Control`,
       "target",
-      targets.map(({ key, title }): [string, string] => [key, title]),
+      targets.map(({ key, title }): [string, string] => [key, trText(title)]),
       choice.target,
       (target) => go({ target }),
     ),
-    input("Other axes at", "at", choice.at, "middle of the travels", (at) => go({ at })),
+    input(tr`Other axes at`, "at", choice.at, tr`middle of the travels`, (at) => go({ at })),
   );
 }
 
@@ -170,14 +174,14 @@ function valuesFields(axes: readonly string[], choice: Choice, go: (change: Part
     "div",
     { class: "row" },
     select(
-      "Axis",
+      tr`Axis`,
       "axis",
       axes.map((name): [string, string] => [name, name]),
       choice.axis,
       (axis) => go({ axis, step: "" }),
     ),
-    input("Step, mm or °", "step", choice.step, "100 mm or 10°", (step) => go({ step })),
-    input("Other axes at", "at", choice.at, "0", (at) => go({ at })),
+    input(tr`Step, mm or °`, "step", choice.step, tr`100 mm or 10°`, (step) => go({ step })),
+    input(tr`Other axes at`, "at", choice.at, "0", (at) => go({ at })),
   );
 }
 
@@ -190,7 +194,7 @@ export function formRows(
 ): HTMLElement[] {
   const kinds = h(
     "div",
-    { class: "group", role: "group", ariaLabel: "What is compensated" },
+    { class: "group", role: "group", ariaLabel: tr`What is compensated` },
     KINDS.map(([of, title]) =>
       h("button", { ariaPressed: String(choice.of === of), dataOf: of, onclick: () => go({ of }) }, title),
     ),
@@ -201,8 +205,8 @@ export function formRows(
       h(
         "div",
         { class: "row" },
-        file(app, "Study", ["blank"], choice.study, (study) => go({ study })),
-        select("Program for", "control", [["", "no program"], ...CONTROLS], choice.control ?? "", (value) =>
+        file(app, tr`Study`, "study", ["blank"], choice.study, (study) => go({ study })),
+        select(tr`Program for`, "control", [["", tr`no program`], ...CONTROLS], choice.control ?? "", (value) =>
           go({ control: value || null }),
         ),
       ),
@@ -213,7 +217,9 @@ export function formRows(
         "div",
         { class: "row" },
         // Axes and positions of one machine are not those of another.
-        file(app, "Machine", ["machine"], choice.machine, (machine) => go({ machine, at: "", axis: "", step: "" })),
+        file(app, tr`Machine`, "machine", ["machine"], choice.machine, (machine) =>
+          go({ machine, at: "", axis: "", step: "" }),
+        ),
       ),
     );
     if (choice.of === "program") rows.push(programFields(app, choice, go));
@@ -223,8 +229,12 @@ export function formRows(
       h(
         "div",
         { class: "row" },
-        input("Temperatures", "temperature", choice.temperature, "scale_x=30.5 workpiece=30.5, in °C", (temperature) =>
-          go({ temperature }),
+        input(
+          tr`Temperatures`,
+          "temperature",
+          choice.temperature,
+          tr`scale_x=30.5 workpiece=30.5, in °C`,
+          (temperature) => go({ temperature }),
         ),
       ),
       optionBoxes(choice, go),

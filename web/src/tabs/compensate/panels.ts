@@ -1,5 +1,6 @@
 /** Deviation before and after, changed lines, residual deviation with tables: the results of a compensation. */
 
+import { tr, trText } from "../../words/index.ts";
 import { h } from "../../dom.ts";
 import { bars, lineChart, type Figure } from "../../figure/index.ts";
 import type { Series } from "../../figure/chart.ts";
@@ -33,22 +34,22 @@ export function deviationTable({ before, after, ends_compared, uncertainty }: Pr
   ];
   const u =
     uncertainty.places > 0 && uncertainty.largest_u_um > 0
-      ? ` Standard uncertainty of the tip by the model: at most ${number(uncertainty.largest_u_um, 3)} µm (k = 1) at ${uncertainty.places} places.`
-      : " The machine file states no uncertainties: those of the corrections are not known.";
+      ? tr` Standard uncertainty of the tip by the model: at most ${number(uncertainty.largest_u_um, 3)} µm (k = 1) at ${uncertainty.places} places.`
+      : tr` The machine file states no uncertainties: those of the corrections are not known.`;
   return sheetTable({
-    title: "Deviation of the actual tool, before and after",
+    title: tr`Deviation of the actual tool, before and after`,
     key: "deviations",
-    head: ["", "unit", "before", "at line", "after", "at line"],
+    head: ["", tr`unit`, tr`before`, tr`at line`, tr`after`, tr`at line`],
     digits: [undefined, undefined, 3, 0, 3, 0],
     rows: [
-      largest("tip at the ends of blocks, largest", "µm", "tip_at_ends_um"),
-      rms("tip at the ends of blocks, rms", "µm", (residual) => residual.tip_at_ends_rms_um),
-      largest("tip between them, largest", "µm", "tip_between_um"),
-      largest("tool axis at the ends of blocks, largest", "µrad", "axis_at_ends_urad"),
-      rms("tool axis at the ends of blocks, rms", "µrad", (residual) => residual.axis_at_ends_rms_urad),
-      largest("tool axis between them, largest", "µrad", "axis_between_urad"),
+      largest(tr`tip at the ends of blocks, largest`, "µm", "tip_at_ends_um"),
+      rms(tr`tip at the ends of blocks, rms`, "µm", (residual) => residual.tip_at_ends_rms_um),
+      largest(tr`tip between them, largest`, "µm", "tip_between_um"),
+      largest(tr`tool axis at the ends of blocks, largest`, "µrad", "axis_at_ends_urad"),
+      rms(tr`tool axis at the ends of blocks, rms`, "µrad", (residual) => residual.axis_at_ends_rms_urad),
+      largest(tr`tool axis between them, largest`, "µrad", "axis_between_urad"),
     ],
-    note: `The written program, read back and simulated on the actual machine, against the program as it was on the nominal machine; ${ends_compared} ends of blocks. Curves: the largest deviation in each block. Lines are those of the program as it was.${u}`,
+    note: tr`The written program, read back and simulated on the actual machine, against the program as it was on the nominal machine; ${ends_compared} ends of blocks. Curves: the largest deviation in each block. Lines are those of the program as it was.${u}`,
   });
 }
 
@@ -72,30 +73,35 @@ export function alongPanel(host: HTMLElement, header: ProgramHeader, along: Floa
     colour,
     ...(line.length === 1 ? { points: true } : {}),
   });
-  const x = { label: "line of the program as it was", digits: 0 };
+  const x = { label: tr`line of the program as it was`, digits: 0 };
   const chart = (title: string, unit: string, series: Series[], limit?: number): Figure<never> =>
     lineChart(host, {
       title,
       x,
-      y: { label: "deviation", unit, min: 0 },
+      y: { label: tr`deviation`, unit, min: 0 },
       series,
       ...(limit === undefined
         ? {}
-        : { limits: [{ value: limit, label: `residual asked for: ${number(limit, 1)} ${unit}` }] }),
+        : { limits: [{ value: limit, label: tr`residual asked for: ${number(limit, 1)} ${unit}` }] }),
       height: 210,
     }) as unknown as Figure<never>;
   const figures = [
-    chart("Tip, before and after", "µm", [
-      one("before", tip_before, "var(--actual)"),
-      one("after", tip_after, "var(--series-1)"),
+    chart(tr`Tip, before and after`, "µm", [
+      one(tr`before`, tip_before, "var(--actual)"),
+      one(tr`after`, tip_after, "var(--series-1)"),
     ]),
-    chart("Tip, residual deviation", "µm", [one("after", tip_after, "var(--series-1)")], 1e3 * document.residual_mm),
+    chart(
+      tr`Tip, residual deviation`,
+      "µm",
+      [one(tr`after`, tip_after, "var(--series-1)")],
+      1e3 * document.residual_mm,
+    ),
   ];
   if (Math.max(...axis_before, ...axis_after) > 1e-6)
     figures.push(
-      chart("Tool axis, before and after", "µrad", [
-        one("before", axis_before, "var(--actual)"),
-        one("after", axis_after, "var(--series-1)"),
+      chart(tr`Tool axis, before and after`, "µrad", [
+        one(tr`before`, axis_before, "var(--actual)"),
+        one(tr`after`, axis_after, "var(--series-1)"),
       ]),
     );
   return figures;
@@ -110,13 +116,13 @@ export function changesPanel(header: ProgramHeader): HTMLElement | null {
     return h(
       "section",
       { class: "panel", dataTest: "new-text" },
-      h("h2", {}, "The new program"),
+      h("h2", {}, tr`The new program`),
       h(
         "p",
         { class: "muted" },
         text.whole
-          ? "The program was unrolled: its lines are not those of the program as it was."
-          : "The program was unrolled: its lines are not those of the program as it was. This is its beginning.",
+          ? tr`The program was unrolled: its lines are not those of the program as it was.`
+          : tr`The program was unrolled: its lines are not those of the program as it was. This is its beginning.`,
       ),
       h("pre", { class: "program tall", tabindex: "0" }, text.beginning),
     );
@@ -124,25 +130,31 @@ export function changesPanel(header: ProgramHeader): HTMLElement | null {
   const shown = changes.lines.length;
   const words =
     changes.changed === 0
-      ? "No line has changed."
-      : `${changes.changed} of ${changes.of} lines have changed${shown < changes.changed ? `; the first ${shown} of them` : ""}.`;
+      ? tr`No line has changed.`
+      : tr`${changes.changed} of ${changes.of} lines have changed${shown < changes.changed ? tr`; the first ${shown} of them` : ""}.`;
   return h(
     "section",
     { class: "panel", dataTest: "changes" },
-    h("h2", {}, "Changed lines"),
+    h("h2", {}, tr`Changed lines`),
     h("p", { class: "muted" }, words),
     shown === 0
       ? null
       : h(
           "div",
-          { class: "changes", tabindex: "0", role: "region", ariaLabel: "Changed lines" },
+          { class: "changes", tabindex: "0", role: "region", ariaLabel: tr`Changed lines` },
           h(
             "table",
             {},
             h(
               "thead",
               {},
-              h("tr", {}, h("th", { class: "number" }, "line"), h("th", {}, "as it was"), h("th", {}, "compensated")),
+              h(
+                "tr",
+                {},
+                h("th", { class: "number" }, tr`line`),
+                h("th", {}, tr`as it was`),
+                h("th", {}, tr`compensated`),
+              ),
             ),
             h(
               "tbody",
@@ -176,17 +188,17 @@ export function leftTable({ document }: TablesReply): HTMLElement {
       .join(" "),
   ];
   return sheetTable({
-    title: "Deviation of the tool over the travel of all axes",
+    title: tr`Deviation of the tool over the travel of all axes`,
     key: "left",
-    head: ["", "tip largest, µm", "tip rms, µm", "tool axis largest, µrad", "largest at, mm and °"],
+    head: ["", tr`tip largest, µm`, tr`tip rms, µm`, tr`tool axis largest, µrad`, tr`largest at, mm and °`],
     digits: [undefined, 3, 3, 3, undefined],
     rows: [
-      row("without tables", document.before_um),
-      row("with tables", document.left_um),
-      row("with tables, part zero set again", document.left_zero_set_um),
-      row("with the wrong sign", document.wrong_sign_um),
+      row(tr`without tables`, document.before_um),
+      row(tr`with tables`, document.left_um),
+      row(tr`with tables, part zero set again`, document.left_zero_set_um),
+      row(tr`with the wrong sign`, document.wrong_sign_um),
     ],
-    note: `The files, read back and applied as the control does, at ${document.left_um.poses} poses, each reached from both sides. A wrong sign is about twice as bad as no table: try one position on the machine first.`,
+    note: tr`The files, read back and applied as the control does, at ${document.left_um.poses} poses, each reached from both sides. A wrong sign is about twice as bad as no table: try one position on the machine first.`,
   });
 }
 
@@ -196,42 +208,44 @@ export function tablesVerdict({ document }: TablesReply): Shown["verdict"] {
   const better = left.max < before.max;
   return {
     standing: better ? "good" : "bad",
-    word: better ? "BETTER" : "NOT BETTER",
-    sentence: `with the tables the tip deviates by up to ${number(left.max, 1)} µm instead of ${number(before.max, 1)} µm over the travel, rms ${number(left.rms, 1)} µm instead of ${number(before.rms, 1)} µm`,
+    word: better ? tr`BETTER` : tr`NOT BETTER`,
+    sentence: tr`with the tables the tip deviates by up to ${number(left.max, 1)} µm instead of ${number(before.max, 1)} µm over the travel, rms ${number(left.rms, 1)} µm instead of ${number(before.rms, 1)} µm`,
   };
 }
 
 /** Each error that the tables cannot hold: what it costs without and with them. */
 export function cannotPanel({ document }: TablesReply): Drawn {
   const { cannot, represents } = document;
-  const panel = h("section", { class: "panel", dataTest: "cannot" }, h("h2", {}, "What the tables cannot represent"));
+  const panel = h("section", { class: "panel", dataTest: "cannot" }, h("h2", {}, tr`What the tables cannot represent`));
   const figures: Figure<never>[] = [];
-  if (cannot.length === 0) panel.append(h("p", {}, "Nothing: all errors of the machine file are in the tables."));
+  if (cannot.length === 0) panel.append(h("p", {}, tr`Nothing: all errors of the machine file are in the tables.`));
   else {
     panel.append(
       h(
         "p",
         { class: "muted" },
-        `Each alone on the machine: the largest deviation of the tip that is left with the tables. Represented: ${represents.join(", ") || "none"}.`,
+        represents.length === 0
+          ? tr`Each alone on the machine: the largest deviation of the tip that is left with the tables. Represented: none.`
+          : tr`Each alone on the machine: the largest deviation of the tip that is left with the tables. Represented: ${represents.join(", ")}.`,
       ),
     );
     const host = h("div", {});
     panel.append(host);
     figures.push(
       bars(host, {
-        title: "Left with the tables",
+        title: tr`Left with the tables`,
         unit: "µm",
-        bars: cannot.map((one) => ({ name: one.error, value: one.left_um, note: one.instead })),
+        bars: cannot.map((one) => ({ name: one.error, value: one.left_um, note: trText(one.instead) })),
         digits: 2,
       }) as unknown as Figure<never>,
     );
     panel.append(
       sheetTable({
-        title: "Errors left",
+        title: tr`Errors left`,
         key: "cannot",
-        head: ["error", "without tables, µm", "with tables, µm", "compensate it instead"],
+        head: [tr`error`, tr`without tables, µm`, tr`with tables, µm`, tr`compensate it instead`],
         digits: [undefined, 3, 3, undefined],
-        rows: cannot.map((one) => [one.error, one.before_um, one.left_um, one.instead]),
+        rows: cannot.map((one) => [one.error, one.before_um, one.left_um, trText(one.instead)]),
       }),
     );
   }
@@ -261,17 +275,17 @@ export function valuesPanel({ document }: ValuesReply): Drawn {
     panel.append(host);
     figures.push(
       lineChart(host, {
-        title: `Values to be added to ${axis.axis}`,
-        x: { label: `position of ${axis.axis}`, unit: linear ? "mm" : "°" },
-        y: { label: "value", unit },
-        series: [{ name: "value", x, y, points: true, ...(has_u ? { u } : {}) }],
+        title: tr`Values to be added to ${axis.axis}`,
+        x: { label: tr`position of ${axis.axis}`, unit: linear ? "mm" : "°" },
+        y: { label: tr`value`, unit },
+        series: [{ name: tr`value`, x, y, points: true, ...(has_u ? { u } : {}) }],
       }) as unknown as Figure<never>,
     );
     panel.append(
       h(
         "p",
         { class: "muted note" },
-        `In least increments of ${axis.increment}; the control adds them to the command.${has_u ? " Whiskers: ± 2u of the error that is compensated, about 95 %." : " The machine file states no uncertainty for this axis."}`,
+        tr`In least increments of ${axis.increment}; the control adds them to the command.${has_u ? tr` Whiskers: ± 2u of the error that is compensated, about 95 %.` : tr` The machine file states no uncertainty for this axis.`}`,
       ),
     );
   }
@@ -289,10 +303,10 @@ export function wallPanel({ document }: AdaptReply): Drawn {
     panel.append(host);
     return lineChart(host, {
       title,
-      x: { label: "place of the map", digits: 0 },
-      y: { label: "wall", unit: "mm", digits: 4 },
+      x: { label: tr`place of the map`, digits: 0 },
+      y: { label: tr`wall`, unit: "mm", digits: 4 },
       series,
-      limits: [{ value: document.wall.least_mm, label: `least: ${number(document.wall.least_mm, 3)} mm` }],
+      limits: [{ value: document.wall.least_mm, label: tr`least: ${number(document.wall.least_mm, 3)} mm` }],
       height: 230,
     }) as unknown as Figure<never>;
   };
@@ -300,17 +314,17 @@ export function wallPanel({ document }: AdaptReply): Drawn {
   const after = document.map.map((cell) => cell.wall_after_mm);
   const u = document.map.map((cell) => cell.u_wall_mm);
   const figures = [
-    chart("Remaining wall, as programmed and adapted", [
-      { name: "as programmed", x, y: before, colour: "var(--actual)" },
-      { name: "adapted", x, y: after, colour: "var(--series-1)" },
+    chart(tr`Remaining wall, as programmed and adapted`, [
+      { name: tr`as programmed`, x, y: before, colour: "var(--actual)" },
+      { name: tr`adapted`, x, y: after, colour: "var(--series-1)" },
     ]),
-    chart("Remaining wall, adapted", [{ name: "adapted", x, y: after, u, colour: "var(--series-1)" }]),
+    chart(tr`Remaining wall, adapted`, [{ name: tr`adapted`, x, y: after, u, colour: "var(--series-1)" }]),
   ];
   panel.append(
     h(
       "p",
       { class: "muted note" },
-      "Places row by row around the part. Band: ± 2u of the wall, about 95 %. Below zero the wall is cut through.",
+      tr`Places row by row around the part. Band: ± 2u of the wall, about 95 %. Below zero the wall is cut through.`,
     ),
   );
   return { panel, figures };

@@ -1,5 +1,6 @@
 /** Every axis with its travel, a slider and a field for its position. */
 
+import { tr } from "../../words/index.ts";
 import type { Link } from "../../api.ts";
 import { fill, h } from "../../dom.ts";
 import { travelText } from "../../figure/chain.ts";
@@ -58,18 +59,18 @@ export class Axes {
   show(links: readonly Link[], at: Positions): void {
     this.at = { ...at };
     const rows = links.filter((l) => l.kind === "linear" || l.kind === "rotary").map((link) => this.row(link));
-    const home = h("button", { onclick: () => this.home(links) }, "All to 0");
+    const home = h("button", { onclick: () => this.home(links) }, tr`All to 0`);
     const heads = h(
       "tr",
       {},
-      h("th", {}, "Axis"),
-      h("th", {}, "Travel"),
-      h("th", {}, h("span", { class: "visually-hidden" }, "Slider")),
-      h("th", { class: "number" }, "Position"),
+      h("th", {}, tr`Axis`),
+      h("th", {}, tr`Travel`),
+      h("th", {}, h("span", { class: "visually-hidden" }, tr`Slider`)),
+      h("th", { class: "number" }, tr`Position`),
     );
     fill(
       this.element,
-      h("div", { class: "panel-head" }, h("h2", {}, "Axes"), home),
+      h("div", { class: "panel-head" }, h("h2", {}, tr`Axes`), home),
       h("table", { class: "axes" }, h("thead", {}, heads), h("tbody", {}, rows)),
     );
   }
@@ -86,7 +87,7 @@ export class Axes {
 
   private row(link: Link): HTMLElement {
     const [from, to] = Array.isArray(link.travel) ? link.travel : link.kind === "rotary" ? [-360, 360] : [-500, 500];
-    const [unit, spoken] = link.kind === "linear" ? ["mm", "millimetres"] : ["°", "degrees"];
+    const [unit, spoken] = link.kind === "linear" ? ["mm", tr`millimetres`] : ["°", tr`degrees`];
     const step = to - from > 2000 ? 1 : to - from > 100 ? 0.1 : 0.01;
     const name = `${link.name}${link.carries === "workpiece" ? "\u2032" : ""}`;
     const value = this.at[link.name] ?? 0;
@@ -97,7 +98,7 @@ export class Axes {
       step,
       value: String(value),
       dataAxis: link.name,
-      ariaLabel: `Axis ${name}, ${spoken}`,
+      ariaLabel: tr`Axis ${name}, ${spoken}`,
     });
     const box = h("input", {
       type: "number",
@@ -105,14 +106,14 @@ export class Axes {
       value: String(value),
       class: "position",
       dataPosition: link.name,
-      ariaLabel: `Position of ${name} in ${spoken}`,
+      ariaLabel: tr`Position of ${name} in ${spoken}`,
     });
     const travel = h("td", { class: "muted travel" });
     // The machine cannot go there, but the numbers are computed all the same.
     const judge = (q: number): void => {
       const outside = Array.isArray(link.travel) && (q < from || q > to);
       travel.classList.toggle("outside", outside);
-      travel.textContent = outside ? `outside ${travelText(link)}` : travelText(link);
+      travel.textContent = outside ? tr`outside ${travelText(link)}` : travelText(link);
       if (outside) box.setAttribute("aria-invalid", "true");
       else box.removeAttribute("aria-invalid");
     };

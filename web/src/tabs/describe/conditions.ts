@@ -1,9 +1,11 @@
 /** Under which conditions the pose is taken: the tool in the spindle, and what the sensors say. */
 
+import { tr } from "../../words/index.ts";
 import type { Sensor, ToolEntry, ToolShape } from "../../api.ts";
 import { numberIn, type Params } from "../../address.ts";
 import { fill, h } from "../../dom.ts";
 import { positionsOf } from "./axes.ts";
+import { namedText } from "./words.ts";
 
 export interface Conditions {
   /** null: the tool of the machine file. */
@@ -73,7 +75,7 @@ export class ConditionFields {
       placeholder: String(tool.length_mm),
       value: this.now.tool_length_mm === null ? "" : String(this.now.tool_length_mm),
       dataTest: "tool-length",
-      ariaLabel: "Tool length in millimetres; empty: that of the machine file",
+      ariaLabel: tr`Tool length in millimetres; empty: that of the machine file`,
     });
     const set = (): void => {
       this.now.tool_length_mm = numberOf(box);
@@ -83,19 +85,19 @@ export class ConditionFields {
     const pick = h(
       "select",
       {
-        ariaLabel: "Tool of the machine file",
+        ariaLabel: tr`Tool of the machine file`,
         onchange: () => {
           box.value = pick.value;
           set();
         },
       },
-      h("option", { value: "" }, "tool of the file"),
+      h("option", { value: "" }, tr`tool of the file`),
       tools.map((t) => h("option", { value: String(t.length_mm) }, t.name)),
     );
     return h(
       "div",
       { class: "row" },
-      h("h2", {}, "Tool length"),
+      h("h2", {}, tr`Tool length`),
       h("span", {}, box, h("span", { class: "unit" }, "mm")),
       tools.length > 0 ? pick : null,
     );
@@ -111,7 +113,7 @@ export class ConditionFields {
           this.changed();
         },
       },
-      "None",
+      tr`None`,
     );
     const rows = sensors.map((sensor) => {
       const box = h("input", {
@@ -121,7 +123,7 @@ export class ConditionFields {
         placeholder: "–",
         value: String(this.now.celsius[sensor.name] ?? ""),
         dataSensor: sensor.name,
-        ariaLabel: `Temperature of ${sensor.name} in degrees Celsius`,
+        ariaLabel: tr`Temperature of ${sensor.name} in degrees Celsius`,
       });
       box.addEventListener("change", () => {
         const value = numberOf(box);
@@ -133,19 +135,19 @@ export class ConditionFields {
         "tr",
         {},
         h("td", {}, h("code", {}, sensor.name)),
-        h("td", { class: "muted" }, sensor.drives.join(", ")),
+        h("td", { class: "muted" }, sensor.drives.map(namedText).join(", ")),
         h("td", { class: "number" }, box, h("span", { class: "unit" }, "°C")),
       );
     });
     return h(
       "div",
       { class: "sensors" },
-      h("div", { class: "panel-head" }, h("h2", {}, "Temperatures by sensor"), clear),
+      h("div", { class: "panel-head" }, h("h2", {}, tr`Temperatures by sensor`), clear),
       h("table", {}, h("tbody", {}, rows)),
       h(
         "p",
         { class: "hint" },
-        "With temperatures the deviation is machine − workpiece: what the part has at 20 °C. A sensor without one stands at the temperature of its error table, the workpiece at 20 °C.",
+        tr`With temperatures the deviation is machine − workpiece: what the part has at 20 °C. A sensor without one stands at the temperature of its error table, the workpiece at 20 °C.`,
       ),
     );
   }

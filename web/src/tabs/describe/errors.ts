@@ -1,5 +1,6 @@
 /** All errors of the machine: search, filter by body, sort, edit in place. */
 
+import { tr } from "../../words/index.ts";
 import type { ErrorEntry, Link, PoseDocument } from "../../api.ts";
 import type { Params } from "../../address.ts";
 import { fill, h } from "../../dom.ts";
@@ -10,28 +11,28 @@ import { errorWords } from "./words.ts";
 type Key = "chain" | "value" | "u" | "share";
 
 const HEADS: readonly { key: Key | null; title: string; hint: string; class?: string }[] = [
-  { key: "chain", title: "Error", hint: "Sort in the order of the chain" },
+  { key: "chain", title: tr`Error`, hint: tr`Sort in the order of the chain` },
   { key: null, title: "", hint: "", class: "error-words" },
   {
     key: "value",
-    title: "Value",
-    hint: "Sort by the greatest amount; of a curve its least and greatest value",
+    title: tr`Value`,
+    hint: tr`Sort by the greatest amount; of a curve its least and greatest value`,
     class: "number",
   },
   {
     key: "u",
     title: "u",
-    hint: "Standard uncertainty, the greatest of a curve. U = 2u (k = 2)",
+    hint: tr`Standard uncertainty, the greatest of a curve. U = 2u (k = 2)`,
     class: "number error-u",
   },
-  { key: null, title: "Over travel", hint: "" },
+  { key: null, title: tr`Over travel`, hint: "" },
   {
     key: "share",
-    title: "Share now",
-    hint: "What it moves the tool tip by at the present position (length). Sort by it",
+    title: tr`Share now`,
+    hint: tr`What it moves the tool tip by at the present position (length). Sort by it`,
     class: "number",
   },
-  { key: null, title: "In the file", hint: "" },
+  { key: null, title: tr`In the file`, hint: "" },
 ];
 
 export class ErrorTable {
@@ -44,11 +45,11 @@ export class ErrorTable {
   private readonly search = h("input", {
     type: "text",
     class: "error-search",
-    placeholder: "Search: EC0Y, tilt, Z …",
-    ariaLabel: "Search errors",
+    placeholder: tr`Search: EC0Y, tilt, Z …`,
+    ariaLabel: tr`Search errors`,
     oninput: () => this.filterAnew(),
   });
-  private readonly of_body = h("select", { ariaLabel: "Errors of", onchange: () => this.filterAnew() });
+  private readonly of_body = h("select", { ariaLabel: tr`Errors of`, onchange: () => this.filterAnew() });
   private readonly all = h("input", { type: "checkbox", onchange: () => this.filterAnew() });
   private readonly count = h("span", { class: "muted" });
   private readonly actions: RowActions;
@@ -68,14 +69,14 @@ export class ErrorTable {
         { class: "row errors-tools" },
         this.search,
         this.of_body,
-        h("label", { class: "check" }, this.all, "also not stated"),
+        h("label", { class: "check" }, this.all, tr`also not stated`),
         this.count,
       ),
       h("table", { class: "errors" }, h("thead", {}, this.heads), this.body),
       h(
         "p",
         { class: "hint errors-hint" },
-        "A value with its unit, ± its standard uncertainty: 12 ± 1 urad. Empty takes the error out of the file. Enter keeps, Escape restores.",
+        tr`A value with its unit, ± its standard uncertainty: 12 ± 1 urad. Empty takes the error out of the file. Enter keeps, Escape restores.`,
       ),
     );
     this.showHeads();
@@ -92,12 +93,12 @@ export class ErrorTable {
       this.rows = errors.map((error) => new ErrorRow(error, this.actions));
       fill(
         this.of_body,
-        h("option", { value: "" }, "all bodies"),
+        h("option", { value: "" }, tr`all bodies`),
         links.map((l) =>
           h(
             "option",
             { value: l.name },
-            l.kind === "workpiece" ? "workpiece w" : l.kind === "tool" ? "tool t" : `axis ${l.name}`,
+            l.kind === "workpiece" ? tr`workpiece w` : l.kind === "tool" ? tr`tool t` : tr`axis ${l.name}`,
           ),
         ),
       );
@@ -191,7 +192,7 @@ export class ErrorTable {
       if (there) shown += 1;
     }
     const stated = this.rows.filter((row) => row.error.stated).length;
-    this.count.textContent = `${shown} shown, ${stated} stated of ${this.rows.length}`;
+    this.count.textContent = tr`${shown} shown, ${stated} stated of ${this.rows.length}`;
   }
 
   private sort(): void {

@@ -1,5 +1,6 @@
 /** The text of the machine file, to be edited, with what is wrong in it. */
 
+import { severityWord, tr } from "../../words/index.ts";
 import type { Diagnostic } from "../../api.ts";
 import { fill, h } from "../../dom.ts";
 
@@ -13,7 +14,7 @@ export class FileText {
     spellcheck: "false",
     autocomplete: "off",
     wrap: "off",
-    ariaLabel: "Text of the file",
+    ariaLabel: tr`Text of the file`,
   });
   private readonly gutter = h("div", { class: "file-gutter", ariaHidden: "true" });
   private readonly problems = h("ul", { class: "diagnostics file-problems", ariaLive: "polite" });
@@ -50,7 +51,7 @@ export class FileText {
     const mixed = (this.crlf ? shown.replaceAll("\n", "\r\n") : shown) !== text;
     this.area.readOnly = mixed;
     this.area.title = mixed
-      ? "The lines of this file end in two ways: edit it with a text editor, or its errors in the table"
+      ? tr`The lines of this file end in two ways: edit it with a text editor, or its errors in the table`
       : "";
     if (this.timer !== undefined || this.area.value === shown) return;
     const top = this.area.scrollTop;
@@ -69,9 +70,9 @@ export class FileText {
         h(
           "li",
           { class: `diagnostic ${d.severity}` },
-          h("span", { class: "diagnostic-severity" }, d.severity),
+          h("span", { class: "diagnostic-severity" }, severityWord(d.severity)),
           d.line
-            ? h("button", { class: "line-link", onclick: () => this.goTo(d.line as number) }, `line ${d.line}`)
+            ? h("button", { class: "line-link", onclick: () => this.goTo(d.line as number) }, tr`line ${d.line}`)
             : null,
           h("span", {}, d.message),
           d.hint ? h("span", { class: "hint" }, d.hint) : null,

@@ -1,5 +1,6 @@
 /** The top of the panel: which machine, is it changed, undo, save – and what to do if another window saved it too. */
 
+import { tr } from "../../words/index.ts";
 import type { Vector } from "../../api.ts";
 import { fill, h } from "../../dom.ts";
 import { um } from "../../format.ts";
@@ -36,34 +37,34 @@ export class Head {
   private readonly name = h("h1", {});
   private readonly file = h("select", {
     class: "machine-file",
-    ariaLabel: "Machine file",
+    ariaLabel: tr`Machine file`,
     onchange: () => this.actions.choose(this.file.value),
   });
   private readonly state = h("span", { class: "edit-state", role: "status", dataTest: "edit-state" });
   private readonly undo = h(
     "button",
-    { title: "Undo (Ctrl+Z)", disabled: true, onclick: () => this.actions.undo() },
-    "Undo",
+    { title: tr`Undo (Ctrl+Z)`, disabled: true, onclick: () => this.actions.undo() },
+    tr`Undo`,
   );
   private readonly redo = h(
     "button",
-    { title: "Redo (Ctrl+Shift+Z)", disabled: true, onclick: () => this.actions.redo() },
-    "Redo",
+    { title: tr`Redo (Ctrl+Shift+Z)`, disabled: true, onclick: () => this.actions.redo() },
+    tr`Redo`,
   );
   private readonly save = h(
     "button",
     {
       class: "primary",
-      title: "Save to the machine file (Ctrl+S)",
+      title: tr`Save to the machine file (Ctrl+S)`,
       disabled: true,
       onclick: () => this.actions.save(),
     },
-    "Save",
+    tr`Save`,
   );
   private readonly save_as = h(
     "button",
-    { title: "Save under another name", onclick: () => this.askName("") },
-    "Save as …",
+    { title: tr`Save under another name`, onclick: () => this.askName("") },
+    tr`Save as …`,
   );
   private readonly deviation = h("strong", { class: "deviation", dataTest: "tip-length" }, "–");
   private readonly banner = h("div", { class: "banner", role: "alert", hidden: true });
@@ -81,7 +82,7 @@ export class Head {
         h("div", { class: "group" }, this.undo, this.redo),
         h("div", { class: "group" }, this.save, this.save_as),
         this.state,
-        h("span", { class: "tip-now" }, "tool tip off by ", this.deviation),
+        h("span", { class: "tip-now" }, tr`tool tip off by `, this.deviation),
       ),
       this.banner,
     );
@@ -96,7 +97,7 @@ export class Head {
       this.file,
       [...new Set([draft.path, ...now.files])]
         .sort()
-        .map((path) => h("option", { value: path }, now.dirty.has(path) ? `${path} (not saved)` : path)),
+        .map((path) => h("option", { value: path }, now.dirty.has(path) ? tr`${path} (not saved)` : path)),
     );
     this.file.value = draft.path;
     this.undo.disabled = !draft.canUndo;
@@ -105,13 +106,13 @@ export class Head {
     this.state.dataset.dirty = String(draft.dirty);
     this.state.textContent = draft.dirty
       ? now.usable
-        ? "changed, not saved"
-        : "changed, cannot be used yet"
+        ? tr`changed, not saved`
+        : tr`changed, cannot be used yet`
       : now.usable
-        ? "saved"
-        : "cannot be used";
+        ? tr`saved`
+        : tr`cannot be used`;
     this.state.title = draft.dirty
-      ? "The picture and the numbers here follow the edit; the other tabs read the saved file."
+      ? tr`The picture and the numbers here follow the edit; the other tabs read the saved file.`
       : "";
   }
 
@@ -127,20 +128,20 @@ export class Head {
       h(
         "p",
         {},
-        h("strong", {}, `${path} was changed somewhere else since you opened it.`),
-        " Nothing was overwritten; your edits are still here.",
+        h("strong", {}, tr`${path} was changed somewhere else since you opened it.`),
+        tr` Nothing was overwritten; your edits are still here.`,
       ),
       h(
         "div",
         { class: "row" },
-        h("button", { dataTest: "theirs", onclick: () => this.actions.takeTheirs() }, "Show theirs"),
-        h("button", { dataTest: "keep", onclick: () => this.closeBanner() }, "Keep editing"),
-        h("button", { dataTest: "other-name", onclick: () => this.askName("") }, "Save under another name …"),
+        h("button", { dataTest: "theirs", onclick: () => this.actions.takeTheirs() }, tr`Show theirs`),
+        h("button", { dataTest: "keep", onclick: () => this.closeBanner() }, tr`Keep editing`),
+        h("button", { dataTest: "other-name", onclick: () => this.askName("") }, tr`Save under another name …`),
       ),
       h(
         "p",
         { class: "hint" },
-        "“Show theirs” drops your edits; Undo brings them back, and then Save replaces theirs.",
+        tr`“Show theirs” drops your edits; Undo brings them back, and then Save replaces theirs.`,
       ),
     );
   }
@@ -154,16 +155,16 @@ export class Head {
       type: "text",
       class: "save-name",
       value: kept ?? nameBeside(this.now.draft.path, taken),
-      ariaLabel: "Name of the new machine file",
+      ariaLabel: tr`Name of the new machine file`,
       spellcheck: "false",
       ariaInvalid: problem ? "true" : null,
     });
     const form = h(
       "form",
       { class: "row" },
-      h("label", { class: "save-label" }, "New file", input),
-      h("button", { class: "primary" }, "Save"),
-      h("button", { type: "button", onclick: () => this.closeBanner() }, "Cancel"),
+      h("label", { class: "save-label" }, tr`New file`, input),
+      h("button", { class: "primary" }, tr`Save`),
+      h("button", { type: "button", onclick: () => this.closeBanner() }, tr`Cancel`),
     );
     form.addEventListener("submit", (event) => {
       event.preventDefault();
@@ -173,7 +174,7 @@ export class Head {
       form,
       problem
         ? h("p", { class: "field-problem" }, problem)
-        : h("p", { class: "hint" }, "In the same folder, tables that the file names are found."),
+        : h("p", { class: "hint" }, tr`In the same folder, tables that the file names are found.`),
     );
     input.focus();
   }

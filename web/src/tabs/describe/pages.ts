@@ -1,5 +1,6 @@
 /** Pages of one panel, one shown at a time. */
 
+import { tr } from "../../words/index.ts";
 import { h } from "../../dom.ts";
 
 export interface Page {
@@ -34,7 +35,7 @@ export function pages(list: readonly Page[], left: () => void, shown: () => void
   const hosts = list.map(({ name, parts }) =>
     h("div", { role: "tabpanel", id: `page-${name}`, "aria-labelledby": `page-tab-${name}` }, parts),
   );
-  const strip = h("div", { class: "pages-strip", role: "tablist", ariaLabel: "Pages of the machine" }, buttons);
+  const strip = h("div", { class: "pages-strip", role: "tablist", ariaLabel: tr`Pages of the machine` }, buttons);
   const go = (name: string): void => {
     if (!list.some((page) => page.name === name)) return;
     left();

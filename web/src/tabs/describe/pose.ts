@@ -1,5 +1,6 @@
 /** Where the tool tip is, and which error puts it there. */
 
+import { tr } from "../../words/index.ts";
 import { diagnosticList } from "../../app.ts";
 import type { Diagnostic, PoseDocument, Vector } from "../../api.ts";
 import { fill, h } from "../../dom.ts";
@@ -18,7 +19,7 @@ export class PosePanels {
   readonly budget = h("section", { class: "panel" });
   private pose: PoseDocument | null = null;
   private direction: Direction = "X";
-  private readonly pick = h("div", { class: "group", role: "group", ariaLabel: "Direction of the shares" });
+  private readonly pick = h("div", { class: "group", role: "group", ariaLabel: tr`Direction of the shares` });
   private readonly total = h("span", { class: "muted budget-total" });
   private bar: Figure<BarSpec> | null = null;
 
@@ -29,11 +30,11 @@ export class PosePanels {
         h(
           "button",
           { ariaPressed: String(d === this.direction), dataDirection: d, onclick: () => this.choose(d) },
-          d === "axis" ? "tool axis" : d,
+          d === "axis" ? tr`tool axis` : d,
         ),
       ),
     );
-    fill(this.budget, h("div", { class: "panel-head" }, h("h2", {}, "Where it comes from"), this.pick, this.total));
+    fill(this.budget, h("div", { class: "panel-head" }, h("h2", {}, tr`Where it comes from`), this.pick, this.total));
   }
 
   show(pose: PoseDocument, notes: readonly Diagnostic[], warm: boolean): void {
@@ -49,7 +50,7 @@ export class PosePanels {
       diagnostics.length > 0
         ? diagnosticList(diagnostics)
         : [h("p", { class: "field-problem" }, message), h("p", { class: "hint" }, hint)];
-    fill(this.tip, h("h2", {}, "Tool tip, as the workpiece sees it"), list);
+    fill(this.tip, h("h2", {}, tr`Tool tip, as the workpiece sees it`), list);
     this.total.textContent = "";
     this.bar?.update({ title: "", unit: "µm", bars: [] });
   }
@@ -63,7 +64,7 @@ export class PosePanels {
       "tr",
       {},
       h("td", {}),
-      ["X", "Y", "Z", "length"].map((name) => h("th", { class: "number" }, name)),
+      ["X", "Y", "Z", tr`length`].map((name) => h("th", { class: "number" }, name)),
     );
     const row = (test: string, name: string, values: HTMLElement[], last = "", deviation = false): HTMLElement =>
       h(
@@ -75,7 +76,7 @@ export class PosePanels {
       );
     fill(
       this.tip,
-      h("h2", {}, warm ? "Tool tip, on the part at 20 °C" : "Tool tip, as the workpiece sees it"),
+      h("h2", {}, warm ? tr`Tool tip, on the part at 20 °C` : tr`Tool tip, as the workpiece sees it`),
       h(
         "table",
         { class: "tip" },
@@ -85,29 +86,29 @@ export class PosePanels {
           {},
           row(
             "nominal",
-            "nominal tip",
+            tr`nominal tip`,
             cells(pose.nominal.tip_mm, (v) => mm(v)),
           ),
           row(
             "actual",
-            "actual tip",
+            tr`actual tip`,
             cells(pose.actual.tip_mm, (v) => mm(v)),
           ),
           row(
             "deviation",
-            "deviation",
+            tr`deviation`,
             cells(pose.deviation.tip_um, (v) => um(v)),
             um(length),
             true,
           ),
           row(
             "axis",
-            "tool axis",
+            tr`tool axis`,
             cells(pose.nominal.axis, (v) => number(v, 6)),
           ),
           row(
             "axis-deviation",
-            "deviation",
+            tr`deviation`,
             cells(pose.deviation.axis_urad, (v) => urad(v)),
             urad(tilt),
             true,
@@ -134,7 +135,7 @@ export class PosePanels {
       .slice(0, MOST_BARS)
       .map((b) => ({ ...b, colour: b.value < 0 ? "var(--series-2)" : "var(--series-1)" }));
     const spec: BarSpec = {
-      title: tilt ? "Share of every error in the tilt of the tool axis" : `Share of every error in ${direction}`,
+      title: tilt ? tr`Share of every error in the tilt of the tool axis` : tr`Share of every error in ${direction}`,
       unit: tilt ? "µrad" : "µm",
       bars: top,
       signed: !tilt,
@@ -142,11 +143,11 @@ export class PosePanels {
     if (this.bar) this.bar.update(spec);
     else this.bar = bars(this.budget, spec);
     const sum = tilt
-      ? `together ${urad(Math.hypot(...pose.deviation.axis_urad))}`
-      : `sum ${um(pose.deviation.tip_um[index])}`;
+      ? tr`together ${urad(Math.hypot(...pose.deviation.axis_urad))}`
+      : tr`sum ${um(pose.deviation.tip_um[index])}`;
     const rest = shown.length - top.length;
     this.total.textContent =
-      top.length === 0 ? "no error acts here" : rest > 0 ? `${sum}, ${rest} smaller not shown` : sum;
+      top.length === 0 ? tr`no error acts here` : rest > 0 ? tr`${sum}, ${rest} smaller not shown` : sum;
   }
 
   private choose(direction: Direction): void {

@@ -1,5 +1,6 @@
 /** One error of the machine file in the table: what it says, its curve, a field to edit it in place. */
 
+import { tr, trText } from "../../words/index.ts";
 import { Refusal, type ErrorEntry, type Link } from "../../api.ts";
 import { fill, h } from "../../dom.ts";
 import { markedSparkline, type Sparkline } from "../../figure/sparkline.ts";
@@ -60,7 +61,7 @@ export class ErrorRow {
       dataError: error.name,
       spellcheck: "false",
       autocomplete: "off",
-      ariaLabel: `${error.name} in the machine file`,
+      ariaLabel: tr`${error.name} in the machine file`,
       "aria-describedby": `problem-${error.name}`,
     });
     this.box.addEventListener("change", () => void this.commit());
@@ -76,7 +77,7 @@ export class ErrorRow {
         this.name,
         h(
           "button",
-          { class: "error-info", ariaLabel: `${error.name}: what it is`, onclick: () => explain(error.name) },
+          { class: "error-info", ariaLabel: tr`${error.name}: what it is`, onclick: () => explain(error.name) },
           "?",
         ),
       ),
@@ -101,7 +102,7 @@ export class ErrorRow {
     this.element.onpointerleave = () => this.actions.hovered(null);
     this.element.classList.toggle("unstated", !error.stated);
     this.name.textContent = error.name;
-    this.name.title = `${words}${error.line === null ? "" : ` – line ${error.line} of the file`}`;
+    this.name.title = `${words}${error.line === null ? "" : tr` – line ${error.line} of the file`}`;
     this.name.disabled = error.line === null;
     this.words.textContent = words;
     this.value.textContent = valueText(error);
@@ -110,7 +111,7 @@ export class ErrorRow {
       : "";
     this.uncertainty.textContent = withUnit(error.u, 1, unitText(error.unit));
     this.uncertainty.title =
-      error.u === null ? "no uncertainty stated" : `U = ${withUnit(2 * error.u, 1, unitText(error.unit))} (k = 2)`;
+      error.u === null ? tr`no uncertainty stated` : `U = ${withUnit(2 * error.u, 1, unitText(error.unit))} (k = 2)`;
     this.drawCurve(error);
     this.showText(error);
   }
@@ -129,7 +130,7 @@ export class ErrorRow {
       y: curve.values,
       width: 72,
       height: 20,
-      label: `${name} over the travel, ${valueText(this.error)}`,
+      label: tr`${name} over the travel, ${valueText(this.error)}`,
       at: this.position,
     });
     const [from, to] = [curve.at[0] as number, curve.at.at(-1) as number];
@@ -138,7 +139,7 @@ export class ErrorRow {
       h(
         "span",
         {
-          title: `${shape}, ${number(from, 0)} … ${withUnit(to, 0, curve.at_unit === "deg" ? "°" : "mm")}, in ${unitText(unit)}`,
+          title: tr`${trText(shape ?? "")}, ${number(from, 0)} … ${withUnit(to, 0, curve.at_unit === "deg" ? "°" : "mm")}, in ${unitText(unit)}`,
         },
         this.spark.svg,
       ),
@@ -157,10 +158,10 @@ export class ErrorRow {
     this.box.readOnly = elsewhere;
     this.box.placeholder = elsewhere
       ? error.table
-        ? `column of ${error.table}`
-        : `line ${error.line ?? "–"} of the file`
-      : `not stated, e.g. 5 ± 1 ${error.unit}`;
-    this.box.title = elsewhere ? "edit it there" : text;
+        ? tr`column of ${error.table}`
+        : tr`line ${error.line ?? "–"} of the file`
+      : tr`not stated, e.g. 5 ± 1 ${error.unit}`;
+    this.box.title = elsewhere ? tr`edit it there` : text;
     this.box.classList.toggle("long", text.length > 24);
   }
 

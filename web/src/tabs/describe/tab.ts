@@ -1,5 +1,6 @@
 /** The Describe tab: holds the drafts of machine files together with what the server says of them. */
 
+import { tr } from "../../words/index.ts";
 import { diagnosticList, split, type App, type TabHandle } from "../../app.ts";
 import { latestOnly, Refusal, type Description, type Diagnostic, type PoseHeader } from "../../api.ts";
 import type { Params } from "../../address.ts";
@@ -19,6 +20,7 @@ import { Head } from "./head.ts";
 import { editKey } from "./keys.ts";
 import { pages } from "./pages.ts";
 import { PosePanels } from "./pose.ts";
+import { namedText } from "./words.ts";
 
 export class DescribeTab implements TabHandle {
   private readonly app: App;
@@ -50,11 +52,11 @@ export class DescribeTab implements TabHandle {
     [
       {
         name: "machine",
-        title: "Machine and pose",
+        title: tr`Machine and pose`,
         parts: [this.chain, this.axes.element, this.conditions.element, this.pose.tip, this.pose.budget, this.findings],
       },
-      { name: "errors", title: "Errors", parts: [this.errors.element] },
-      { name: "file", title: "File", parts: [this.file.element] },
+      { name: "errors", title: tr`Errors`, parts: [this.errors.element] },
+      { name: "file", title: tr`File`, parts: [this.file.element] },
     ],
     () => this.file.flush(),
     () => this.keepState(),
@@ -113,7 +115,7 @@ export class DescribeTab implements TabHandle {
         h(
           "p",
           {},
-          "There is no machine file in this folder. Open an example on the first page, or put a machine.toml into the folder.",
+          tr`There is no machine file in this folder. Open an example on the first page, or put a machine.toml into the folder.`,
         ),
       );
       return;
@@ -132,7 +134,9 @@ export class DescribeTab implements TabHandle {
   private pick(body: string): void {
     this.view.highlight(body);
     if (!this.errors.showBody(body)) {
-      this.app.say(body === "b" ? "The bed has no errors: the others are relative to it." : `${body} has no errors.`);
+      this.app.say(
+        body === "b" ? tr`The bed has no errors: the others are relative to it.` : tr`${body} has no errors.`,
+      );
       return;
     }
     this.pages.go("errors");
@@ -179,7 +183,7 @@ export class DescribeTab implements TabHandle {
     try {
       let draft = this.drafts.get(path);
       if (!draft) {
-        this.app.say(`reading ${path}`);
+        this.app.say(tr`reading ${path}`);
         const { text, version } = await this.app.api.ask("open", { path });
         draft = new Draft(path, text, version);
         this.drafts.set(path, draft);
@@ -292,7 +296,7 @@ export class DescribeTab implements TabHandle {
       const refusal = Refusal.from(error);
       this.head.askName(
         refusal.code === "conflict"
-          ? `${path} is there already; choose another name`
+          ? tr`${path} is there already; choose another name`
           : `${refusal.message}. ${refusal.hint}`,
       );
     }
@@ -305,8 +309,8 @@ export class DescribeTab implements TabHandle {
     this.app.fail(
       new Refusal(
         "not-accepted",
-        `${first} holds a value that cannot be saved`,
-        "Correct it in the table of errors, or press Escape in its field; nothing has been saved.",
+        tr`${first} holds a value that cannot be saved`,
+        tr`Correct it in the table of errors, or press Escape in its field; nothing has been saved.`,
       ),
     );
     return false;
@@ -317,7 +321,7 @@ export class DescribeTab implements TabHandle {
     const saved = await this.app.api.ask("save", { path, text, version, window: this.app.api.window });
     draft.wasSaved(text, saved.version);
     this.showHead();
-    this.app.say(`${path} is saved`);
+    this.app.say(tr`${path} is saved`);
   }
 
   private async takeTheirs(): Promise<void> {
@@ -375,7 +379,7 @@ export class DescribeTab implements TabHandle {
   /** A file that never was a machine here: there is no picture of it. */
   private showUnusable(path: string): void {
     this.pages.go("file");
-    this.pose.refuse(`${path} cannot be used yet`, "The page “File” shows what is wrong, line by line.", []);
+    this.pose.refuse(tr`${path} cannot be used yet`, tr`The page “File” shows what is wrong, line by line.`, []);
     this.head.showDeviation(null);
   }
 
@@ -385,7 +389,7 @@ export class DescribeTab implements TabHandle {
     this.links_key = key;
     this.picture?.dispose();
     this.picture = chainPicture(this.chain, {
-      title: "From the workpiece to the tool",
+      title: tr`From the workpiece to the tool`,
       links,
       onhover: (name) => this.view.highlight(name),
     });
@@ -429,20 +433,20 @@ export class DescribeTab implements TabHandle {
     const lacks = check.lacks ?? [];
     fill(
       this.findings,
-      h("h2", {}, "What the check says"),
-      diagnostics.length > 0 ? diagnosticList(diagnostics) : h("p", {}, "No errors or warnings."),
+      h("h2", {}, tr`What the check says`),
+      diagnostics.length > 0 ? diagnosticList(diagnostics) : h("p", {}, tr`No errors or warnings.`),
       lacks.length > 0
         ? [
-            h("h3", { class: "lacks-title" }, "Not stated in the file"),
+            h("h3", { class: "lacks-title" }, tr`Not stated in the file`),
             h(
               "ul",
               { class: "lacks" },
-              lacks.map((text) => h("li", {}, text)),
+              lacks.map((text) => h("li", {}, namedText(text))),
             ),
           ]
         : null,
       check.source
-        ? [h("h3", { class: "lacks-title" }, "Source"), h("p", { class: "muted source" }, check.source)]
+        ? [h("h3", { class: "lacks-title" }, tr`Source`), h("p", { class: "muted source", dataOwn: "" }, check.source)]
         : null,
     );
   }

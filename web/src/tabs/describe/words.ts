@@ -1,5 +1,6 @@
 /** The names of errors in the words of ISO 230-1. */
 
+import { tr, trText } from "../../words/index.ts";
 import type { ErrorEntry, Link } from "../../api.ts";
 
 /** The letter of the axis of coordinates that a direction lies along; null if along none. */
@@ -12,15 +13,26 @@ const linearOf = (rotation: string): string => "XYZ"["ABC".indexOf(rotation)] ??
 
 function motionWords(component: string, link: Link): string {
   const own = along(link);
+  const { name } = link;
   const turns = "ABC".includes(component);
-  const is_own = own !== null && (turns ? linearOf(component) : component) === own;
+  const about = linearOf(component);
+  const is_own = own !== null && (turns ? about : component) === own;
   if (link.kind === "linear") {
-    if (turns) return is_own ? "roll" : `tilt about ${linearOf(component)}`;
-    return is_own ? "positioning" : `straightness in ${component}`;
+    if (turns) return is_own ? tr`roll of ${name}` : tr`tilt about ${about} of ${name}`;
+    return is_own ? tr`positioning of ${name}` : tr`straightness in ${component} of ${name}`;
   }
-  if (own === null) return turns ? `error motion about ${linearOf(component)}` : `error motion in ${component}`;
-  if (turns) return is_own ? "angular positioning" : `tilt about ${linearOf(component)}`;
-  return is_own ? "axial error motion" : `radial error motion in ${component}`;
+  if (own === null)
+    return turns ? tr`error motion about ${about} of ${name}` : tr`error motion in ${component} of ${name}`;
+  if (turns) return is_own ? tr`angular positioning of ${name}` : tr`tilt about ${about} of ${name}`;
+  return is_own ? tr`axial error motion of ${name}` : tr`radial error motion in ${component} of ${name}`;
+}
+
+function locationWords(component: string, { kind, name }: Link): string {
+  const about = linearOf(component);
+  if (kind === "workpiece")
+    return about ? tr`orientation of workpiece about ${about}` : tr`position of workpiece in ${component}`;
+  if (kind === "tool") return about ? tr`orientation of tool about ${about}` : tr`position of tool in ${component}`;
+  return about ? tr`orientation of ${name} about ${about}` : tr`position of ${name} in ${component}`;
 }
 
 /** "EC0Y" -> "orientation of Y about Z"; "EXX" -> "positioning of X". */
@@ -28,11 +40,13 @@ export function errorWords(error: ErrorEntry, links: readonly Link[]): string {
   const link = links[error.body];
   const component = error.name[1] ?? "";
   if (!link) return error.kind;
-  const body = link.kind === "workpiece" ? "workpiece" : link.kind === "tool" ? "tool" : link.name;
-  if (error.kind === "motion") return `${motionWords(component, link)} of ${body}`;
-  return "ABC".includes(component)
-    ? `orientation of ${body} about ${linearOf(component)}`
-    : `position of ${body} in ${component}`;
+  return error.kind === "motion" ? motionWords(component, link) : locationWords(component, link);
+}
+
+/** What the server says of axes or errors: their names stand at the {0} of the text that the dictionary has. */
+export function namedText(text: string): string {
+  const names = /\b[A-Z][A-Z0-9]*[wt]?(?: [A-Z][A-Z0-9]*[wt]?)*\b/.exec(text)?.[0];
+  return names === undefined ? trText(text) : trText(text.replace(names, "{0}")).replace("{0}", names);
 }
 
 /** "um" -> "µm", as numbers are shown. */

@@ -1,5 +1,7 @@
 /** Verdict, scores, errors with their uncertainty, what is not observable: the result of an identification. */
 
+import { told } from "../../words/told.ts";
+import { tr, trText } from "../../words/index.ts";
 import { diagnosticList } from "../../app.ts";
 import { h } from "../../dom.ts";
 import { bars, type Bar, type BarSpec, type Figure } from "../../figure/index.ts";
@@ -21,27 +23,30 @@ import {
 export function verdictPanel(doc: IdentifyDocument): HTMLElement {
   const { verdict } = doc;
   const known = doc.errors.filter((one) => foundValue(one) !== null).length;
+  const all = doc.errors.length;
   const found =
-    doc.errors.length > 0
-      ? `${known} of ${count(doc.errors.length, "error")} found`
-      : "no error of the machine is unknown";
+    all === 0
+      ? tr`no error of the machine is unknown`
+      : all === 1
+        ? tr`${known} of 1 error found`
+        : tr`${known} of ${all} errors found`;
   return h(
     "section",
     { class: "panel" },
-    h("h1", {}, doc.name),
+    h("h1", { dataOwn: true }, doc.name),
     h(
       "p",
       { class: `verdict ${verdict.good ? "" : "bad"}`, role: "status", dataTest: "verdict" },
-      h("span", { class: "verdict-word" }, verdict.good ? "Good" : "Not good"),
-      h("span", {}, verdict.words),
+      h("span", { class: "verdict-word" }, verdict.good ? tr`Good` : tr`Not good`),
+      told("span", {}, verdict.words),
     ),
     h(
       "p",
       { class: "muted" },
-      `${count(doc.readings, "reading")} in ${count(doc.places, "place")}: ${found}. Rank ${doc.rank}, condition ${number(doc.condition, 1)}.`,
+      tr`${count(doc.readings, "reading")} in ${count(doc.places, "place")}: ${found}. Rank ${doc.rank}, condition ${number(doc.condition, 1)}.`,
     ),
     doc.left_out.length > 0
-      ? h("p", { class: "muted note" }, `Not supported by the readings, and left out: ${doc.left_out.join(", ")}.`)
+      ? h("p", { class: "muted note" }, tr`Not supported by the readings, and left out: ${doc.left_out.join(", ")}.`)
       : null,
   );
 }
@@ -49,12 +54,12 @@ export function verdictPanel(doc: IdentifyDocument): HTMLElement {
 /** The four scores side by side: the residual must be as small as the repeatability of the instrument. */
 export function scorePanel(doc: IdentifyDocument): HTMLElement {
   const rows: [string, string, Score | null][] = [
-    ["without_model", "without errors of the machine, set-up only", doc.rms.without_model],
-    ["in_sample", "in sample", doc.rms.in_sample],
-    ["held_out", "held out, by place", doc.rms.held_out],
+    ["without_model", tr`without errors of the machine, set-up only`, doc.rms.without_model],
+    ["in_sample", tr`in sample`, doc.rms.in_sample],
+    ["held_out", tr`held out, by place`, doc.rms.held_out],
     [
       "repeatability",
-      doc.repeatability_is_measured ? "repeatability, from repeated readings" : "repeatability, as stated",
+      doc.repeatability_is_measured ? tr`repeatability, from repeated readings` : tr`repeatability, as stated`,
       doc.rms.repeatability,
     ],
   ];
@@ -64,7 +69,7 @@ export function scorePanel(doc: IdentifyDocument): HTMLElement {
   return h(
     "section",
     { class: "panel", dataSheet: "scores" },
-    h("h2", {}, "Root mean square of the residuals"),
+    h("h2", {}, tr`Root mean square of the residuals`),
     h(
       "table",
       {},
@@ -75,9 +80,9 @@ export function scorePanel(doc: IdentifyDocument): HTMLElement {
           "tr",
           {},
           h("td", {}),
-          h("th", {}, h("span", { class: "visually-hidden" }, "Bar")),
+          h("th", {}, h("span", { class: "visually-hidden" }, tr`Bar`)),
           units.map((unit) => h("th", { class: "number" }, unit === "um" ? "µm" : "µrad")),
-          h("th", { class: "number" }, "× noise"),
+          h("th", { class: "number" }, tr`× noise`),
         ),
       ),
       h(
@@ -107,7 +112,7 @@ export function scorePanel(doc: IdentifyDocument): HTMLElement {
 
 function barOf(found: Found): Bar {
   const value = foundValue(found);
-  if (value === null) return { name: found.name, value: null, missing: "not observable with these readings" };
+  if (value === null) return { name: found.name, value: null, missing: tr`not observable with these readings` };
   const weak = found.z !== null && Math.abs(found.z) < 2;
   return {
     name: found.name,
@@ -131,7 +136,7 @@ export function foundPanel(
     if (own.length > 0)
       figures.push(
         bars(panel, {
-          title: `${title}, ${unit === "µm" ? "lengths" : "angles"}`,
+          title: `${title}, ${unit === "µm" ? tr`lengths` : tr`angles`}`,
           unit,
           digits: 1,
           bars: own.map(barOf),
@@ -146,25 +151,28 @@ export function valueSheet(doc: IdentifyDocument): Sheet {
   const rows = [...doc.errors, ...doc.setup].map((one) => [one.name, foundValue(one), one.u, unitOf(one), one.z]);
   return {
     key: "values",
-    title: "All values",
-    head: ["unknown", "value", "standard uncertainty u", "unit", "z = value / u"],
+    title: tr`All values`,
+    head: (tr) => [tr`unknown`, tr`value`, tr`standard uncertainty u`, tr`unit`, tr`z = value / u`],
     rows,
     digits: [undefined, 3, 3, undefined, 1],
   };
 }
 
 export function confoundedPanel(unobservable: readonly Unobservable[], good: string): HTMLElement {
+  const n = unobservable.length;
   return h(
     "section",
     { class: "panel", dataTest: "confounded" },
     h(
       "h2",
       {},
-      unobservable.length > 0
-        ? `${count(unobservable.length, "combination")} that cannot be separated`
-        : "Not separable",
+      n === 0
+        ? tr`Not separable`
+        : n === 1
+          ? tr`1 combination that cannot be separated`
+          : tr`${n} combinations that cannot be separated`,
     ),
-    unobservable.length === 0
+    n === 0
       ? h("p", {}, good)
       : h(
           "ul",
@@ -173,8 +181,10 @@ export function confoundedPanel(unobservable: readonly Unobservable[], good: str
             h(
               "li",
               {},
-              h("p", {}, withErrorNames(one.words)),
-              one.resolve_with ? h("p", { class: "muted" }, `What would tell: ${one.resolve_with}`) : null,
+              told("p", {}, one.words, withErrorNames),
+              one.resolve_with
+                ? h("p", { class: "muted" }, tr`What would tell: `, told("span", {}, one.resolve_with))
+                : null,
               h("p", { class: "muted" }, h("code", {}, withErrorNames(one.combination))),
             ),
           ),
@@ -191,10 +201,14 @@ export function strongPairs(names: readonly string[], correlation: ArrayLike<num
   for (let i = 0; i < n; i++) {
     for (let j = i + 1; j < n; j++) {
       const r = correlation[i * n + j] as number;
+      const signed = `${r > 0 ? "+" : ""}${number(r, 3)}`;
       if (Math.abs(r) > STRONG)
         pairs.push({
           r,
-          words: `${names[i]} and ${names[j]} (${r > 0 ? "+" : ""}${number(r, 3)}): their ${r < 0 ? "sum" : "difference"} is better known than each`,
+          words:
+            r < 0
+              ? tr`${names[i]} and ${names[j]} (${signed}): their sum is better known than each`
+              : tr`${names[i]} and ${names[j]} (${signed}): their difference is better known than each`,
         });
     }
   }
@@ -205,25 +219,25 @@ export function outlierPanel(doc: IdentifyDocument): HTMLElement {
   const sheets: Sheet[] = [
     {
       key: "outliers",
-      title: "Outliers",
-      head: ["reading", "channel", "studentised residual"],
+      title: tr`Outliers`,
+      head: (tr) => [tr`reading`, tr`channel`, tr`studentised residual`],
       rows: doc.outliers.map((o) => [`${o.file}:${o.line}`, o.channel, o.studentised]),
       digits: [undefined, 0, 1],
     },
     {
       key: "influence",
-      title: "Readings that move the result most",
-      head: ["reading", "leverage", "Cook’s distance"],
+      title: tr`Readings that move the result most`,
+      head: (tr) => [tr`reading`, tr`leverage`, tr`Cook’s distance`],
       rows: doc.most_influential.map((m) => [`${m.file}:${m.line}`, m.leverage, m.cook]),
       digits: [undefined, 3, 4],
     },
     {
       key: "follows",
-      title: "Whether the residual follows the axes",
-      head: ["places by", "share of it, held out, %"],
-      rows: doc.residual_follows.map((f) => [f.what, 100 * f.share]),
+      title: tr`Whether the residual follows the axes`,
+      head: (tr) => [tr`places by`, tr`share of it, held out, %`],
+      rows: doc.residual_follows.map((f) => [trText(f.what), 100 * f.share]),
       digits: [undefined, 1],
-      note: "Above zero: something of the machine is left that the model does not have.",
+      note: tr`Above zero: something of the machine is left that the model does not have.`,
     },
   ];
   const [outliers, ...more] = sheets as [Sheet, ...Sheet[]];
@@ -235,16 +249,16 @@ export function outlierPanel(doc: IdentifyDocument): HTMLElement {
       : h(
           "section",
           { class: "panel", dataSheet: "outliers" },
-          h("h2", {}, "Outliers"),
+          h("h2", {}, tr`Outliers`),
           h(
             "p",
             {},
-            `None: no reading is farther off than ${withUnit(doc.outlier_limit, 1, "")} times its standard uncertainty.`,
+            tr`None: no reading is farther off than ${withUnit(doc.outlier_limit, 1, "")} times its standard uncertainty.`,
           ),
         ),
     more.map(sheetTable),
     doc.diagnostics.length > 0
-      ? h("section", { class: "panel" }, h("h2", {}, "Remarks"), diagnosticList(doc.diagnostics))
+      ? h("section", { class: "panel" }, h("h2", {}, tr`Remarks`), diagnosticList(doc.diagnostics))
       : null,
   );
 }

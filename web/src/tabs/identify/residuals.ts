@@ -1,5 +1,6 @@
 /** The residuals of the readings at every place, before and after: arrows to turn and to magnify. */
 
+import { tr } from "../../words/index.ts";
 import { fill, h } from "../../dom.ts";
 import { fairMagnification, vectors, type Figure, type VectorSpec } from "../../figure/index.ts";
 import { factor } from "../../format.ts";
@@ -15,10 +16,10 @@ const factorOf = (slider: number): number => {
 const sliderOf = (k: number): number => (100 * Math.log(k / LEAST)) / Math.log(MOST / LEAST);
 
 const SIDES: readonly [string, number, number, string][] = [
-  ["3-D", -60, 24, "From the front, left, above"],
-  ["XY", -90, 90, "From above"],
-  ["XZ", -90, 0, "From the front"],
-  ["YZ", 0, 0, "From the right"],
+  ["3-D", -60, 24, tr`From the front, left, above`],
+  ["XY", -90, 90, tr`From above`],
+  ["XZ", -90, 0, tr`From the front`],
+  ["YZ", 0, 0, tr`From the right`],
 ];
 
 export class Residuals {
@@ -40,12 +41,12 @@ export class Residuals {
       max: "100",
       step: "0.5",
       class: "exaggeration",
-      ariaLabel: "Magnification of the residuals",
+      ariaLabel: tr`Magnification of the residuals`,
       oninput: () => this.turn({ magnification: factorOf(Number(this.slider.value)) }),
     });
     this.sides = h(
       "div",
-      { class: "group", role: "group", ariaLabel: "View" },
+      { class: "group", role: "group", ariaLabel: tr`View` },
       SIDES.map(([name, azimuth, elevation, title]) =>
         h("button", { title, onclick: () => this.turn({ azimuth, elevation }) }, name),
       ),
@@ -57,8 +58,8 @@ export class Residuals {
         "div",
         { class: "vectors-tools" },
         this.sides,
-        check(this.before, "before"),
-        check(this.after, "after"),
+        check(this.before, tr`before`),
+        check(this.after, tr`after`),
         this.slider,
         this.factor_text,
       ),
@@ -73,13 +74,13 @@ export class Residuals {
     const at_mm = frame.f64("at_mm");
     this.panel.hidden = at_mm.length === 0;
     this.sets = [
-      { name: "before: without the errors found", um: frame.f32("before_um"), colour: "var(--series-2)" },
-      { name: "after: residual", um: frame.f32("after_um"), colour: "var(--series-1)" },
+      { name: tr`before: without the errors found`, um: frame.f32("before_um"), colour: "var(--series-2)" },
+      { name: tr`after: residual`, um: frame.f32("after_um"), colour: "var(--series-1)" },
     ];
     const [, azimuth, elevation] = SIDES[0] as (typeof SIDES)[number];
     const kept = this.spec ?? { azimuth, elevation };
     this.turn({
-      title: "Residuals where the machine stood",
+      title: tr`Residuals where the machine stood`,
       at_mm,
       sets: this.sets,
       azimuth: kept.azimuth,

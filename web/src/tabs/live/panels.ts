@@ -1,9 +1,10 @@
 /** The parts of the Live tab that show one moment. */
 
+import { tr } from "../../words/index.ts";
 import type { LiveAxisEntry, LiveEventEntry, LiveState } from "../../../types.d.ts";
 import { h } from "../../dom.ts";
 import { NARROW_SPACE, NO_NUMBER, number, withUnit } from "../../format.ts";
-import { ago, unitOf } from "./words.ts";
+import { ago, eventWord, said, unitOf } from "./words.ts";
 
 export type Tone = "good" | "warn" | "bad" | "off";
 
@@ -16,19 +17,21 @@ const TONES: Record<string, Tone> = {
   off: "off",
 };
 const WORDS: Record<string, string> = {
-  run: "Run",
-  hold: "Hold",
-  "ramp-down": "Ramp down",
-  latched: "Latched",
-  arm: "Arm",
-  off: "Off",
+  run: tr`Run`,
+  hold: tr`Hold`,
+  "ramp-down": tr`Ramp down`,
+  latched: tr`Latched`,
+  arm: tr`Arm`,
+  off: tr`Off`,
 };
+
+export const stateWord = (state: string): string => WORDS[state] ?? state;
 
 /** The state in large letters; what is over is shown as such, whatever its last state was. */
 export function stateOf(last: LiveState, running: boolean): { tone: Tone; word: string } {
-  const word = WORDS[last.state] ?? last.state;
+  const word = stateWord(last.state);
   if (!running)
-    return { tone: last.axes.some((axis) => axis.own !== 0) ? "bad" : "off", word: `Not running (${word})` };
+    return { tone: last.axes.some((axis) => axis.own !== 0) ? "bad" : "off", word: tr`Not running (${word})` };
   const alarm = last.near_limit || last.lagging || last.outside_travel;
   const tone = TONES[last.state] ?? "warn";
   return { tone: tone === "good" && alarm ? "warn" : tone, word };
@@ -37,12 +40,12 @@ export function stateOf(last: LiveState, running: boolean): { tone: Tone; word: 
 /** What wants a person's eye, and what was counted. */
 export function tilesOf(last: LiveState): HTMLElement {
   const alarms = [
-    last.near_limit ? "an offset is near its limit" : null,
-    last.lagging ? "an offset is late: feed less" : null,
-    last.outside_travel ? "an axis is outside the travel of the plan" : null,
+    last.near_limit ? tr`an offset is near its limit` : null,
+    last.lagging ? tr`an offset is late: feed less` : null,
+    last.outside_travel ? tr`an axis is outside the travel of the plan` : null,
   ].filter((text) => text !== null);
-  const tile = (title: string, value: string, tone = ""): HTMLElement =>
-    h("div", { class: `tile ${tone}`, dataTile: title }, h("dt", {}, title), h("dd", {}, h("strong", {}, value)));
+  const tile = (key: string, title: string, value: string, tone = ""): HTMLElement =>
+    h("div", { class: `tile ${tone}`, dataTile: key }, h("dt", {}, title), h("dd", {}, h("strong", {}, value)));
   return h(
     "div",
     {},
@@ -50,12 +53,12 @@ export function tilesOf(last: LiveState): HTMLElement {
     h(
       "dl",
       { class: "tiles" },
-      tile("feed", last.feed_mm_per_min === null ? NO_NUMBER : withUnit(last.feed_mm_per_min, 0, "mm/min")),
-      last.setup == null ? null : tile("setup", number(last.setup, 0)),
-      tile("cycles", number(last.cycles, 0)),
-      tile("periods missed", number(last.missed, 0)),
-      tile("writes", number(last.writes, 0)),
-      tile("failed writes", number(last.failed_writes, 0), last.failed_writes > 0 ? "bad" : ""),
+      tile("feed", tr`feed`, last.feed_mm_per_min === null ? NO_NUMBER : withUnit(last.feed_mm_per_min, 0, "mm/min")),
+      last.setup == null ? null : tile("setup", tr`setup`, number(last.setup, 0)),
+      tile("cycles", tr`cycles`, number(last.cycles, 0)),
+      tile("periods missed", tr`periods missed`, number(last.missed, 0)),
+      tile("writes", tr`writes`, number(last.writes, 0)),
+      tile("failed writes", tr`failed writes`, number(last.failed_writes, 0), last.failed_writes > 0 ? "bad" : ""),
     ),
   );
 }
@@ -66,7 +69,7 @@ function bar(axis: LiveAxisEntry): HTMLElement {
   const own = share(axis.own);
   const left = own < 0 ? 50 + 50 * own : 50;
   const near = Math.abs(own) >= 0.8;
-  const text = `${number(axis.own, 1)} of ±${number(axis.limit, 0)}${NARROW_SPACE}${unitOf(axis.unit)}`;
+  const text = tr`${number(axis.own, 1)} of ±${number(axis.limit, 0)}${NARROW_SPACE}${unitOf(axis.unit)}`;
   return h(
     "div",
     { class: "live-bar", role: "img", ariaLabel: text, title: text },
@@ -76,17 +79,26 @@ function bar(axis: LiveAxisEntry): HTMLElement {
     }),
     axis.target === null
       ? null
-      : h("span", { class: "live-target", title: "target", style: { left: `${50 + 50 * share(axis.target)}%` } }),
+      : h("span", { class: "live-target", title: tr`target`, style: { left: `${50 + 50 * share(axis.target)}%` } }),
   );
 }
 
 export function axesPanel(last: LiveState): HTMLElement {
-  const heads = ["axis", "position", "offset", "acts", "target", "late by", "its share of the limit", "limit"];
+  const heads = [
+    tr`axis`,
+    tr`position`,
+    tr`offset`,
+    tr`acts`,
+    tr`target`,
+    tr`late by`,
+    tr`its share of the limit`,
+    tr`limit`,
+  ];
   const datum = last.axes.some((axis) => axis.datum !== null && axis.datum !== undefined);
   return h(
     "section",
     { class: "panel sheet", dataSheet: "live-axes" },
-    h("h2", {}, "Offsets"),
+    h("h2", {}, tr`Offsets`),
     h(
       "div",
       { class: "sheet-scroll" },
@@ -129,14 +141,14 @@ export function axesPanel(last: LiveState): HTMLElement {
       ? h(
           "p",
           { class: "note", dataTest: "datum" },
-          "Subtracted, as the zero of the part was touched with it: ",
+          tr`Subtracted, as the zero of the part was touched with it: `,
           last.axes.map((axis) => `${axis.axis} ${withUnit(axis.datum, 1, unitOf(axis.unit))}`).join(", "),
         )
       : null,
     h(
       "p",
       { class: "muted note" },
-      "Offset: what the control holds. Bar: the part that this program has written, between minus and plus the limit; the line in it is the target.",
+      tr`Offset: what the control holds. Bar: the part that this program has written, between minus and plus the limit; the line in it is the target.`,
     ),
   );
 }
@@ -146,7 +158,7 @@ export function sensorsPanel(last: LiveState): HTMLElement | null {
   return h(
     "section",
     { class: "panel sheet", dataSheet: "live-sensors" },
-    h("h2", {}, "Sensors"),
+    h("h2", {}, tr`Sensors`),
     h(
       "table",
       {},
@@ -156,10 +168,10 @@ export function sensorsPanel(last: LiveState): HTMLElement | null {
         h(
           "tr",
           {},
-          h("th", {}, "sensor"),
-          h("th", { class: "number" }, "temperature"),
-          h("th", { class: "number" }, "age"),
-          h("th", {}, h("span", { class: "visually-hidden" }, "fault")),
+          h("th", {}, tr`sensor`),
+          h("th", { class: "number" }, tr`temperature`),
+          h("th", { class: "number" }, tr`age`),
+          h("th", {}, h("span", { class: "visually-hidden" }, tr`fault`)),
         ),
       ),
       h(
@@ -172,7 +184,7 @@ export function sensorsPanel(last: LiveState): HTMLElement | null {
             h("td", {}, sensor.sensor),
             h("td", { class: "number" }, withUnit(sensor.celsius, 2, "°C")),
             h("td", { class: "number" }, withUnit(sensor.age_s, 1, "s")),
-            h("td", {}, sensor.fault ?? (sensor.instead ? `${sensor.instead} stands in` : "")),
+            h("td", {}, sensor.fault ? said(sensor.fault) : sensor.instead ? tr`${sensor.instead} stands in` : ""),
           ),
         ),
       ),
@@ -185,7 +197,7 @@ export function eventsPanel(events: readonly LiveEventEntry[], now_s: number): H
   return h(
     "section",
     { class: "panel sheet", dataSheet: "live-events" },
-    h("h2", {}, "Events"),
+    h("h2", {}, tr`Events`),
     h(
       "table",
       {},
@@ -203,8 +215,8 @@ export function eventsPanel(events: readonly LiveEventEntry[], now_s: number): H
                 { class: "muted", title: new Date(1000 * event.date_s).toISOString() },
                 ago(now_s - event.date_s),
               ),
-              h("td", {}, event.state),
-              h("td", {}, event.reason),
+              h("td", {}, eventWord(event.state)),
+              h("td", {}, said(event.reason)),
             ),
           ),
       ),

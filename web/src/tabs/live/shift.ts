@@ -1,5 +1,6 @@
 /** The last hours: of each axis what the tool was off before and after the correction, and the temperatures. */
 
+import { tr } from "../../words/index.ts";
 import type { LiveHistory } from "../../../types.d.ts";
 import { fill, h } from "../../dom.ts";
 import { number } from "../../format.ts";
@@ -54,7 +55,7 @@ export class Shift {
   show(history: LiveHistory | null): void {
     if (!history || history.date_s.length < 2) {
       this.clear();
-      if (history) fill(this.element, h("p", { class: "muted note" }, "The history begins after some ten seconds."));
+      if (history) fill(this.element, h("p", { class: "muted note" }, tr`The history begins after some ten seconds.`));
       return;
     }
     const holes = gapsIn(history.date_s);
@@ -63,24 +64,23 @@ export class Shift {
     const specs = new Map<string, TimePlotSpec>();
     for (const axis of history.axes) {
       const unit = unitOf(axis.unit);
-      const sum = (what: string, most: number, rms: number): string =>
-        `${what} ${number(most, 1)} at most, ${number(rms, 1)} rms`;
+      const one = (value: number): string => number(value, 1);
       specs.set(axis.axis, {
-        title: `${axis.axis}: off by the model, ${sum("before", axis.before_max, axis.before_rms)}; ${sum("after", axis.left_max, axis.left_rms)}`,
+        title: tr`${axis.axis}: off by the model, before ${one(axis.before_max)} at most, ${one(axis.before_rms)} rms; after ${one(axis.left_max)} at most, ${one(axis.left_rms)} rms`,
         unit,
         digits: 1,
         time_s,
         time_unit: "h",
         series: [
-          { name: "before", values: curve(axis.before), colour: 1 },
-          { name: "after", values: curve(axis.left), colour: 0 },
+          { name: tr`before`, values: curve(axis.before), colour: 1 },
+          { name: tr`after`, values: curve(axis.left), colour: 0 },
         ],
         height: 150,
       });
     }
     if (history.sensors.length > 0)
       specs.set("°C", {
-        title: "Temperatures",
+        title: tr`Temperatures`,
         unit: "°C",
         digits: 2,
         time_s,

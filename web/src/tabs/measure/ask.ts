@@ -1,5 +1,7 @@
 /** One long question at a time, with its progress in the status line; and what stands at the head of a tab. */
 
+import { told } from "../../words/told.ts";
+import { tr, trText } from "../../words/index.ts";
 import { diagnosticList, type App } from "../../app.ts";
 import { Refusal, type Diagnostic, type ProjectFile, type Reply, type Request } from "../../api.ts";
 import { fill, h, type Child } from "../../dom.ts";
@@ -43,7 +45,7 @@ export class Question<N extends Asked> {
     try {
       return await this.app.api.ask(this.name, body, {
         signal: own.signal,
-        onProgress: (share, note) => progress.report(share, note || text),
+        onProgress: (share, note) => progress.report(share, note ? trText(note) : text),
       });
     } finally {
       if (this.running === own || this.running === null) progress.done();
@@ -68,7 +70,7 @@ export function showRefusal(host: HTMLElement, error: unknown, ...more: Child[])
     all.length > 0
       ? [
           diagnosticList(all.slice(0, MOST_TOLD)),
-          all.length > MOST_TOLD ? h("p", { class: "muted" }, `and ${all.length - MOST_TOLD} more`) : null,
+          all.length > MOST_TOLD ? h("p", { class: "muted" }, tr`and ${all.length - MOST_TOLD} more`) : null,
         ]
       : null;
   const isShown = refusal.diagnostics.some((d) => refusal.message.endsWith(d.message));
@@ -77,8 +79,8 @@ export function showRefusal(host: HTMLElement, error: unknown, ...more: Child[])
     h(
       "section",
       { class: "panel refused", role: "alert" },
-      isShown ? null : h("h2", {}, refusal.message),
-      isShown || !refusal.hint ? null : h("p", { class: "hint" }, refusal.hint),
+      isShown ? null : told("h2", {}, refusal.message),
+      isShown || !refusal.hint ? null : told("p", { class: "hint" }, refusal.hint),
       list(errors),
       others.length > 0
         ? h(
@@ -117,14 +119,14 @@ export function fileSelect(
     examples.length > 0
       ? h(
           "optgroup",
-          { label: "Examples" },
-          examples.map((example) => option(example.path, example.title)),
+          { label: tr`Examples` },
+          examples.map((example) => option(example.path, trText(example.title))),
         )
       : null,
     files.length > 0
       ? h(
           "optgroup",
-          { label: "Files of this folder" },
+          { label: tr`Files of this folder` },
           files.map((path) => option(path)),
         )
       : null,
@@ -136,5 +138,5 @@ export function fileSelect(
 /** The way to the report of the same question; only for files, as a report names what it read. */
 export function reportButton(app: App, params: Record<string, string | null | undefined>): HTMLElement | null {
   if (!app.has("report") || !params.file) return null;
-  return h("button", { class: "report-link", onclick: () => app.go("report", params) }, "Report");
+  return h("button", { class: "report-link", onclick: () => app.go("report", params) }, tr`Report`);
 }

@@ -1,5 +1,6 @@
 /** Readings dropped anywhere on a tab, or chosen with a button. The file stays on this computer. */
 
+import { tr } from "../../words/index.ts";
 import type { App } from "../../app.ts";
 import { Refusal } from "../../api.ts";
 import { h } from "../../dom.ts";
@@ -29,8 +30,8 @@ export async function readText(app: App, file: File): Promise<TextFile> {
   if (file.size > MOST_BYTES)
     throw new Refusal(
       "large-file",
-      `${name} has ${bytes(file.size)}: too much for readings`,
-      `Drop a CSV of at most ${bytes(MOST_BYTES)}, or put the file into the project folder.`,
+      tr`${name} has ${bytes(file.size)}: too much for readings`,
+      tr`Drop a CSV of at most ${bytes(MOST_BYTES)}, or put the file into the project folder.`,
     );
   try {
     const text = new TextDecoder("utf-8", { fatal: true }).decode(await file.arrayBuffer());
@@ -67,7 +68,7 @@ export function dropOn(host: HTMLElement, app: App, label: string, take: (file: 
     over(event, false);
     taken(event.dataTransfer?.files[0]);
   });
-  return h("label", { class: "button open-file", title: "Or drop the file anywhere on this page" }, label, input);
+  return h("label", { class: "button open-file", title: tr`Or drop the file anywhere on this page` }, label, input);
 }
 
 let handed: TextFile | null = null;

@@ -1,10 +1,12 @@
 /** Files that an answer made: shown, downloaded, saved in the project. Nothing is on a disk before that. */
 
+import { tr } from "../../words/index.ts";
 import type { ServeCompensateTables } from "../../../types.d.ts";
 import type { App } from "../../app.ts";
 import { Refusal } from "../../api.ts";
 import { download, fill, h } from "../../dom.ts";
 import { bytes } from "../../format.ts";
+import { refusalWords } from "./words.ts";
 
 export type Made = ServeCompensateTables["made"];
 export type MadeFile = Made["files"][number];
@@ -17,7 +19,7 @@ export function baseName(path: string): string {
 export async function fetchMade(made: Made, index: number): Promise<Blob> {
   const response = await fetch(`made/${made.number}/${index}`);
   if (!response.ok)
-    throw new Refusal("gone", "this file is not kept any more", "Ask for it again: the last few files are kept.");
+    throw new Refusal("gone", tr`this file is not kept any more`, tr`Ask for it again: the last few files are kept.`);
   return response.blob();
 }
 
@@ -30,7 +32,7 @@ export function downloadButton(app: App, made: Made, index: number): HTMLElement
       (error: unknown) => app.fail(error),
     );
   };
-  return h("button", { ariaLabel: `Download ${name}`, onclick: give }, "Download");
+  return h("button", { ariaLabel: tr`Download ${name}`, onclick: give }, tr`Download`);
 }
 
 /** Name and button by which a file goes into the project folder; what is there already is not replaced. */
@@ -41,20 +43,20 @@ export function saveForm(app: App, made: Made, index: number, saved: (path: stri
     type: "text",
     class: "short",
     value: file?.name ?? "",
-    ariaLabel: "Name of the file in the project folder",
+    ariaLabel: tr`Name of the file in the project folder`,
     dataTest: "save-name",
   });
   const save = async (): Promise<void> => {
     const path = name.value.trim();
     try {
       await app.api.ask("save-made", { made: made.number, file: index, path, window: app.api.window });
-      fill(said, `Saved as ${path}.`);
+      fill(said, tr`Saved as ${path}.`);
       said.classList.remove("unsound");
       await app.loadProject();
       saved(path);
     } catch (error) {
       const refusal = Refusal.from(error);
-      fill(said, `${refusal.message}${refusal.hint ? `: ${refusal.hint}` : ""}.`);
+      fill(said, refusalWords(refusal));
       said.classList.add("unsound");
     }
   };
@@ -67,8 +69,8 @@ export function saveForm(app: App, made: Made, index: number, saved: (path: stri
         void save();
       },
     },
-    h("label", { class: "field grow" }, h("span", {}, "Name"), name),
-    h("button", { type: "submit", dataTest: "save" }, "Save in the project"),
+    h("label", { class: "field grow" }, h("span", {}, tr`Name`), name),
+    h("button", { type: "submit", dataTest: "save" }, tr`Save in the project`),
     said,
   );
 }
@@ -84,7 +86,7 @@ export function filesPanel(app: App, made: Made, title: string, words: string): 
         {},
         h("summary", {}, h("code", {}, baseName(file.name)), h("span", { class: "muted" }, `  ${bytes(file.bytes)}`)),
         h("pre", { class: "program", tabindex: "0" }, file.beginning),
-        file.whole ? null : h("p", { class: "muted note" }, "The beginning; the download has all of it."),
+        file.whole ? null : h("p", { class: "muted note" }, tr`The beginning; the download has all of it.`),
       ),
       downloadButton(app, made, i),
     );

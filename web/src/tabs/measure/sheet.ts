@@ -1,5 +1,6 @@
 /** Readings while they are taken: rows of a sheet, typed or from a file, and the CSV that `identify` reads. */
 
+import { tr } from "../../words/index.ts";
 import type { ServeMeasureSheet } from "../../../types.d.ts";
 import { Refusal } from "../../api.ts";
 
@@ -115,9 +116,9 @@ export class Sheet {
       return read.flatMap((column): BadCell[] => {
         const text = (cells[column] ?? "").trim();
         const name = this.header.columns[column]?.name ?? "";
-        if (text === "") return [{ row, column, words: `row ${row + 1}: ${name} is missing` }];
+        if (text === "") return [{ row, column, words: tr`row ${row + 1}: ${name} is missing` }];
         if (plainNumber(text) === null)
-          return [{ row, column, words: `row ${row + 1}: ${name} “${text}” is no number` }];
+          return [{ row, column, words: tr`row ${row + 1}: ${name} “${text}” is no number` }];
         return [];
       });
     });
@@ -148,8 +149,8 @@ export class Sheet {
     if (heading === undefined || rest.length === 0)
       throw new Refusal(
         "empty-table",
-        `${name} has no readings`,
-        "One line of headings, then one row for each reading.",
+        tr`${name} has no readings`,
+        tr`One line of headings, then one row for each reading.`,
       );
     const separator = separatorOf(heading);
     const cellsOf = (line: string): string[] => line.split(separator).map((cell) => cell.trim());
@@ -160,15 +161,15 @@ export class Sheet {
     if (missing.length > 0)
       throw new Refusal(
         "missing-column",
-        `${name} has no column ${missing.join(", ")}`,
-        `The readings of ${this.header.instrument} have the headings ${columns.map((column) => column.name).join(", ")}.`,
+        tr`${name} has no column ${missing.join(", ")}`,
+        tr`The readings of ${this.header.instrument} have the headings ${columns.map((column) => column.name).join(", ")}.`,
       );
     const has_places = columns.some((column, j) => !column.read && column.name.length === 1 && (at[j] ?? -1) >= 0);
     if (!has_places && rest.length !== this.header.rows.length)
       throw new Refusal(
         "missing-column",
-        `${name} has ${rest.length} rows without positions, and there are ${this.header.rows.length} stations`,
-        "Give the axes as columns (X, Y, Z in mm, A, B, C in degrees), or one row for each station.",
+        tr`${name} has ${rest.length} rows without positions, and there are ${this.header.rows.length} stations`,
+        tr`Give the axes as columns (X, Y, Z in mm, A, B, C in degrees), or one row for each station.`,
       );
     const rows = rest.map((line, i) => {
       const cells = cellsOf(line);
@@ -183,6 +184,6 @@ export class Sheet {
     this.restore(rows);
     this.head = head;
     const unused = names.filter((one) => one && !columns.some((column) => column.name === one));
-    return unused.length > 0 ? [`not used: ${unused.join(", ")}`] : [];
+    return unused.length > 0 ? [tr`not used: ${unused.join(", ")}`] : [];
   }
 }

@@ -1,5 +1,6 @@
 /** The sheet as a table to type into. */
 
+import { tr } from "../../words/index.ts";
 import { fill, h } from "../../dom.ts";
 import { plainNumber, type Sheet } from "./sheet.ts";
 
@@ -35,12 +36,12 @@ export class SheetView {
       return h(
         "th",
         { class: `number ${read ? "read" : ""}`, scope: "col", title: name },
-        name === FEED ? "feed, mm/min" : name,
+        name === FEED ? tr`feed, mm/min` : name,
       );
     });
     const rows = sheet.rows.slice(this.from, to).flatMap((row, k) => {
       const begins = row.path !== undefined && (k === 0 || sheet.rows[this.from + k - 1]?.path !== row.path);
-      const heading = h("tr", { class: "path-row" }, h("th", { colspan: head.length + 2 }, `Path ${row.path}`));
+      const heading = h("tr", { class: "path-row" }, h("th", { colspan: head.length + 2 }, tr`Path ${row.path}`));
       return [...(begins ? [heading] : []), this.row(sheet, shown, this.from + k)];
     });
     fill(
@@ -48,8 +49,8 @@ export class SheetView {
       sheet.rows.length > MOST_ROWS ? this.pages(sheet.rows.length) : null,
       h(
         "table",
-        { ariaLabel: `Readings of ${sheet.header.instrument}` },
-        h("thead", {}, h("tr", {}, h("th", { class: "number", scope: "col" }, "No."), head, h("td", {}))),
+        { ariaLabel: tr`Readings of ${sheet.header.instrument}` },
+        h("thead", {}, h("tr", {}, h("th", { class: "number", scope: "col" }, tr`No.`), head, h("td", {}))),
         h("tbody", {}, rows),
       ),
     );
@@ -60,16 +61,16 @@ export class SheetView {
     const select = h(
       "select",
       {
-        ariaLabel: "Rows that are shown",
+        ariaLabel: tr`Rows that are shown`,
         onchange: () => {
           this.from = Number(select.value);
           this.draw();
         },
       },
-      starts.map((from) => h("option", { value: from }, `rows ${from + 1} to ${Math.min(count, from + MOST_ROWS)}`)),
+      starts.map((from) => h("option", { value: from }, tr`rows ${from + 1} to ${Math.min(count, from + MOST_ROWS)}`)),
     );
     select.value = String(this.from - (this.from % MOST_ROWS));
-    return h("div", { class: "row" }, select, h("span", { class: "muted" }, `of ${count}`));
+    return h("div", { class: "row" }, select, h("span", { class: "muted" }, tr`of ${count}`));
   }
 
   private row(sheet: Sheet, shown: readonly number[], i: number): HTMLElement {
@@ -83,7 +84,7 @@ export class SheetView {
         inputmode: "decimal",
         class: "reading",
         value: text,
-        ariaLabel: `${column.name} of row ${i + 1}`,
+        ariaLabel: tr`${column.name} of row ${i + 1}`,
         ariaInvalid: String(isBad(text)),
         oninput: () => {
           cells[j] = input.value;
@@ -113,8 +114,8 @@ export class SheetView {
           "button",
           {
             class: "repeat",
-            title: "One more reading in this place",
-            ariaLabel: `Repeat row ${i + 1}`,
+            title: tr`One more reading in this place`,
+            ariaLabel: tr`Repeat row ${i + 1}`,
             onclick: again,
           },
           "+",

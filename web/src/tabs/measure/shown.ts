@@ -1,5 +1,7 @@
 /** The report of a command on the page: verdict, sentences, tables, as the server sends them. */
 
+import { told } from "../../words/told.ts";
+import { tr, trText } from "../../words/index.ts";
 import type { ServeVerify } from "../../../types.d.ts";
 import { withErrorNames } from "../../glossary/glossary.ts";
 import { diagnosticList } from "../../app.ts";
@@ -24,16 +26,16 @@ export function headPanel(shown: Shown, ...more: Child[]): HTMLElement {
   return h(
     "section",
     { class: "panel" },
-    h("h1", { class: "shown-title" }, shown.title),
+    told("h1", { class: "shown-title" }, shown.title),
     verdict
       ? h(
           "p",
           { class: `verdict ${state}`, role: "status", dataTest: "verdict" },
-          h("span", { class: "verdict-word" }, inWords(verdict.word)),
-          h("span", {}, verdict.sentence),
+          h("span", { class: "verdict-word" }, inWords(trText(verdict.word))),
+          told("span", {}, verdict.sentence),
         )
       : null,
-    shown.lines.map((line) => h("p", { class: "muted" }, line)),
+    shown.lines.map((line) => told("p", { class: "muted" }, line)),
     more,
   );
 }
@@ -66,7 +68,7 @@ function tableOf(title: string, table: ShownTable): HTMLElement {
             h(
               "tr",
               {},
-              headings.map((text, j) => h(text ? "th" : "td", { class: aligned(j) }, text)),
+              headings.map((text, j) => told(text ? "th" : "td", { class: aligned(j) }, text)),
             ),
           )
         : null,
@@ -77,26 +79,26 @@ function tableOf(title: string, table: ShownTable): HTMLElement {
           h(
             "tr",
             {},
-            row.map((cell, j) => h("td", { class: aligned(j) }, withErrorNames(cellText(cell)))),
+            row.map((cell, j) => told("td", { class: aligned(j) }, cell, (text) => withErrorNames(cellText(text)))),
           ),
         ),
       ),
     ),
-    table.note ? h("p", { class: "muted note" }, table.note) : null,
+    table.note ? told("p", { class: "muted note" }, table.note) : null,
   );
 }
 
 function item(title: string, one: ShownItem): HTMLElement {
   switch (one.kind) {
     case "paragraph":
-      return h("p", {}, one.text);
+      return told("p", {}, one.text);
     case "note":
-      return h("p", { class: "muted note" }, one.text);
+      return told("p", { class: "muted note" }, one.text);
     case "list":
       return h(
         "ul",
         { class: "remarks" },
-        one.lines.map((line) => h("li", {}, line)),
+        one.lines.map((line) => told("li", {}, line)),
       );
     case "code":
       return h("pre", { class: "program", tabindex: "0" }, one.text);
@@ -107,7 +109,7 @@ function item(title: string, one: ShownItem): HTMLElement {
 
 /** A section of the report; its first table can be saved as CSV. */
 export function sectionPanel(section: ShownSection): HTMLElement {
-  const title = section.title || "Notes";
+  const title = section.title ? trText(section.title) : tr`Notes`;
   const table = section.items.find((one): one is ShownTable => one.kind === "table");
   const save = (): void => {
     if (!table) return;
@@ -120,7 +122,7 @@ export function sectionPanel(section: ShownSection): HTMLElement {
   };
   return h(
     "section",
-    { class: "panel sheet figure", dataSection: title },
+    { class: "panel sheet figure", dataSection: section.title || "Notes" },
     h(
       "div",
       { class: "figure-head" },
@@ -129,7 +131,7 @@ export function sectionPanel(section: ShownSection): HTMLElement {
         ? h(
             "span",
             { class: "figure-menu" },
-            h("button", { class: "figure-save", ariaLabel: `Save the table ${title} as CSV`, onclick: save }, "CSV"),
+            h("button", { class: "figure-save", ariaLabel: tr`Save the table ${title} as CSV`, onclick: save }, "CSV"),
           )
         : null,
     ),
@@ -143,8 +145,8 @@ export function remarksPanel(diagnostics: readonly Diagnostic[]): HTMLElement | 
   return h(
     "section",
     { class: "panel", dataTest: "remarks" },
-    h("h2", {}, "Warnings and notes"),
+    h("h2", {}, tr`Warnings and notes`),
     diagnosticList(diagnostics.slice(0, 50)),
-    diagnostics.length > 50 ? h("p", { class: "muted" }, `and ${diagnostics.length - 50} more`) : null,
+    diagnostics.length > 50 ? h("p", { class: "muted" }, tr`and ${diagnostics.length - 50} more`) : null,
   );
 }

@@ -1,5 +1,6 @@
 /** A table of results with its data as CSV. */
 
+import { tr } from "../../words/index.ts";
 import { download, h } from "../../dom.ts";
 import { csvOf, fileName } from "../../figure/figure.ts";
 import { number } from "../../format.ts";
@@ -7,11 +8,18 @@ import { withErrorNames } from "../../glossary/glossary.ts";
 
 export type Cell = string | number | null;
 
+/** Headings are said in the language of the page; those that are made by a function stay English in the CSV file. */
+type Headings = string[] | ((tr: Say) => string[]);
+type Say = typeof tr;
+
+const english: Say = (texts, ...values) => String.raw({ raw: texts }, ...values);
+const headings = (head: Headings, say: Say): string[] => (typeof head === "function" ? head(say) : head);
+
 export interface Sheet {
   title: string;
   note?: string;
-  /** Headings with their units. */
-  head: string[];
+  /** With their units. */
+  head: Headings;
   rows: Cell[][];
   /** Digits after the point, for each column; default 2. */
   digits?: (number | undefined)[];
@@ -35,12 +43,14 @@ function columnIsText(sheet: Sheet, j: number): boolean {
 
 export function sheetTable(sheet: Sheet): HTMLElement {
   const csv = (): string =>
-    csvOf(sheet.head.map((heading, j) => ({ heading, values: sheet.rows.map((row) => row[j] ?? null) })));
+    csvOf(
+      headings(sheet.head, english).map((heading, j) => ({ heading, values: sheet.rows.map((row) => row[j] ?? null) })),
+    );
   const save = h(
     "button",
     {
       class: "figure-save",
-      ariaLabel: `Save the table ${sheet.title} as CSV`,
+      ariaLabel: tr`Save the table ${sheet.title} as CSV`,
       onclick: () => download(`${fileName(sheet.title)}.csv`, csv(), "text/csv"),
     },
     "CSV",
@@ -61,7 +71,9 @@ export function sheetTable(sheet: Sheet): HTMLElement {
           h(
             "tr",
             {},
-            sheet.head.map((text, j) => h(text ? "th" : "td", { class: columnIsText(sheet, j) ? "" : "number" }, text)),
+            headings(sheet.head, tr).map((text, j) =>
+              h(text ? "th" : "td", { class: columnIsText(sheet, j) ? "" : "number" }, text),
+            ),
           ),
         ),
         h(

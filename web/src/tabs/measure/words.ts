@@ -1,6 +1,7 @@
 /** Units and numbers as the tables of TrueAxis write them. */
 
 import { number, NO_NUMBER } from "../../format.ts";
+import { trText } from "../../words/index.ts";
 
 export { duration } from "../../format.ts";
 
@@ -18,5 +19,14 @@ export function significant(value: number | null | undefined, figures = 3): stri
 
 /** "1 path", "4 paths". */
 export function count(n: number, one: string, many = `${one}s`): string {
-  return `${n} ${n === 1 ? one : many}`;
+  const word = n === 1 ? one : many;
+  const text = `${n} ${word}`;
+  // A dictionary may have both as one: Chinese puts a measure word between them.
+  const said = trText(text);
+  return said === text ? `${n} ${trText(word)}` : said;
+}
+
+/** What was refused and what to do, on one line. */
+export function refusalWords({ message, hint }: { message: string; hint: string }): string {
+  return `${trText(message)}${hint ? `: ${trText(hint)}` : ""}.`;
 }

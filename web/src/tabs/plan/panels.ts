@@ -1,5 +1,7 @@
 /** Paths, expected uncertainties, what each path sees, programs: the result of a plan. */
 
+import { told } from "../../words/told.ts";
+import { tr, trText } from "../../words/index.ts";
 import { h, download } from "../../dom.ts";
 import { bars, heatmap, type Figure } from "../../figure/index.ts";
 import { number } from "../../format.ts";
@@ -31,17 +33,25 @@ export function summaryPanel(doc: PlanDocument): HTMLElement {
   const determined = doc.expected.filter((one) => one.u !== null).length;
   const time_s = doc.paths.reduce((sum, path) => sum + (programOf(path)?.duration_s ?? 0), 0);
   const [state, word] =
-    unsound > 0 ? ["bad", "Program errors"] : doc.rank < seen ? ["warn", "Not all observable"] : ["", "All observable"];
+    unsound > 0
+      ? ["bad", tr`Program errors`]
+      : doc.rank < seen
+        ? ["warn", tr`Not all observable`]
+        : ["", tr`All observable`];
   const words = [
-    unsound > 0 ? `${count(unsound, "program")} would run into something or leave the travel` : null,
+    unsound === 1
+      ? tr`1 program would run into something or leave the travel`
+      : unsound > 1
+        ? tr`${unsound} programs would run into something or leave the travel`
+        : null,
     doc.rank < seen
-      ? `${doc.rank} of ${seen} combinations observable, ${determined} unknowns separately`
-      : "all unknowns are observable",
+      ? tr`${doc.rank} of ${seen} combinations observable, ${determined} unknowns separately`
+      : tr`all unknowns are observable`,
   ].filter(Boolean);
   return h(
     "section",
     { class: "panel" },
-    h("h1", {}, doc.name),
+    h("h1", { dataOwn: true }, doc.name),
     h("p", { class: "muted" }, `${doc.machine}, `, h("code", { class: "chain-text" }, doc.chain)),
     h(
       "p",
@@ -52,7 +62,7 @@ export function summaryPanel(doc: PlanDocument): HTMLElement {
     h(
       "p",
       { class: "muted" },
-      `${count(doc.paths.length, "path")}, ${duration(time_s)} of program together; condition ${significant(doc.condition)}.`,
+      tr`${count(doc.paths.length, "path")}, ${duration(time_s)} of program together; condition ${significant(doc.condition)}.`,
     ),
   );
 }
@@ -64,26 +74,28 @@ export function pathsPanel({ document, paths }: PlanHeader, now: number, choose:
     const issue = program ? issues(program) : [];
     const minor = program?.minor ?? [];
     const state = !program
-      ? h("span", { class: "muted" }, path.program && "missing" in path.program ? path.program.missing : "no program")
-      : h("span", { class: program.sound ? "sound" : "unsound" }, program.sound ? "sound" : "not sound");
+      ? path.program && "missing" in path.program
+        ? told("span", { class: "muted" }, path.program.missing)
+        : h("span", { class: "muted" }, tr`no program`)
+      : h("span", { class: program.sound ? "sound" : "unsound" }, program.sound ? tr`sound` : tr`not sound`);
     const notes = [
-      ...issue.map((text) => h("p", { class: "unsound" }, text)),
+      ...issue.map((text) => told("p", { class: "unsound" }, text)),
       minor.length > 0
         ? h(
             "details",
             { onclick: (event: Event) => event.stopPropagation() },
-            h("summary", { class: "muted" }, `${minor.length} minor`),
-            minor.slice(0, 100).map((text) => h("p", { class: "muted" }, text)),
+            h("summary", { class: "muted" }, tr`${minor.length} minor`),
+            minor.slice(0, 100).map((text) => told("p", { class: "muted" }, text)),
           )
         : null,
     ];
     const how =
       path.feed_mm_per_min !== null
-        ? `without a stop at ${number(path.feed_mm_per_min, 0)} mm/min`
+        ? tr`without a stop at ${number(path.feed_mm_per_min, 0)} mm/min`
         : path.dwell_s !== null
-          ? `standing ${number(path.dwell_s, 2)} s at each`
+          ? tr`standing ${number(path.dwell_s, 2)} s at each`
           : null;
-    const kind = [paths[i]?.instrument, paths[i]?.kind, how].filter(Boolean).join(", ");
+    const kind = [paths[i]?.instrument, trText(paths[i]?.kind ?? ""), how].filter(Boolean).join(", ");
     const cells = [
       h("td", {}, h("strong", {}, path.name), h("p", { class: "muted" }, kind)),
       h("td", { class: "number" }, String(path.stations)),
@@ -106,7 +118,7 @@ export function pathsPanel({ document, paths }: PlanHeader, now: number, choose:
   return h(
     "section",
     { class: "panel" },
-    h("h2", {}, "Paths and their programs"),
+    h("h2", {}, tr`Paths and their programs`),
     h(
       "table",
       { class: "paths" },
@@ -116,10 +128,10 @@ export function pathsPanel({ document, paths }: PlanHeader, now: number, choose:
         h(
           "tr",
           {},
-          h("th", {}, "Path"),
-          h("th", { class: "number" }, "Stations"),
-          h("th", { class: "number" }, "Runs"),
-          h("th", {}, "Issues"),
+          h("th", {}, tr`Path`),
+          h("th", { class: "number" }, tr`Stations`),
+          h("th", { class: "number" }, tr`Runs`),
+          h("th", {}, tr`Issues`),
         ),
       ),
       h("tbody", {}, document.paths.map(row)),
@@ -140,13 +152,14 @@ export function expectedPanel(doc: PlanDocument): Drawn {
     const list = own.map((one) => ({
       name: one.name,
       value: one.expanded_k2,
-      missing: "not observable alone",
+      missing: tr`not observable alone`,
       note: "k = 2",
       ...(isSetup(one) ? { colour: "var(--line-strong)" } : {}),
     }));
     figures.push(
       bars(panel, {
-        title: `Expected uncertainty U (k = 2) of ${unit === "um" ? "lengths" : "angles"}`,
+        title:
+          unit === "um" ? tr`Expected uncertainty U (k = 2) of lengths` : tr`Expected uncertainty U (k = 2) of angles`,
         unit: unitText(unit),
         digits: 2,
         bars: list,
@@ -157,7 +170,7 @@ export function expectedPanel(doc: PlanDocument): Drawn {
     h(
       "p",
       { class: "muted note" },
-      "Before anybody measures: from the noise of the instrument and the poses alone. Grey: unknowns of the set-up.",
+      tr`Before anybody measures: from the noise of the instrument and the poses alone. Grey: unknowns of the set-up.`,
     ),
   );
   return { panel, figures };
@@ -177,22 +190,22 @@ export function seenPanel(doc: PlanDocument): Drawn {
       (path.seen_of_10_um_or_urad[i]?.largest ?? []).map((v) => (Math.abs(v) < UNSEEN ? Number.NaN : v)),
     ),
   );
-  const units = [...new Set(doc.paths.map((path) => unitText(path.unit)))].join(" or ");
+  const units = [...new Set(doc.paths.map((path) => unitText(path.unit)))].join(tr` or `);
   const figure = heatmap(panel, {
-    title: `What each path sees of 10 µm or 10 µrad, ${units}`,
+    title: tr`What each path sees of 10 µm or 10 µrad, ${units}`,
     rows: errors,
     columns,
     values,
     range: [0, Math.max(10, ...values.filter(Number.isFinite))],
     digits: 2,
     unit: units,
-    blank: "not seen",
+    blank: tr`not seen`,
   });
   panel.append(
     h(
       "p",
       { class: "muted note" },
-      "Largest reading along the path, for every channel of its instrument. Grey: not seen at all.",
+      tr`Largest reading along the path, for every channel of its instrument. Grey: not seen at all.`,
     ),
   );
   return { panel, figures: [figure] };
@@ -200,6 +213,7 @@ export function seenPanel(doc: PlanDocument): Drawn {
 
 /** The poses that were chosen, against a grid of as many. */
 export function chosenPanel(chosen: Chosen): HTMLElement {
+  const grid_of = chosen.grid?.poses;
   const grid = new Map(chosen.grid?.expected.map((one) => [one.name, one.expanded_k2]));
   const rows = chosen.expected.map((one) => [
     one.name,
@@ -207,11 +221,11 @@ export function chosenPanel(chosen: Chosen): HTMLElement {
     ...(chosen.grid ? [grid.get(one.name) ?? null] : []),
     unitText(one.unit),
   ]);
-  const words = `${chosen.poses} of ${chosen.candidates} poses, ${count(chosen.readings, "reading")}${chosen.time_s !== null ? `, ${duration(chosen.time_s)} as the campaign counts touches and poses` : ""}. ${count(chosen.blocked, "pose")} left out, where the tool would run into something.`;
+  const words = tr`${chosen.poses} of ${chosen.candidates} poses, ${count(chosen.readings, "reading")}${chosen.time_s !== null ? tr`, ${duration(chosen.time_s)} as the campaign counts touches and poses` : ""}. ${count(chosen.blocked, "pose")} left out, where the tool would run into something.`;
   const sheet = sheetTable({
     key: "chosen",
-    title: "The chosen poses against a grid of as many",
-    head: ["unknown", "U (k = 2) chosen", ...(chosen.grid ? [`grid of ${chosen.grid.poses}`] : []), "unit"],
+    title: tr`The chosen poses against a grid of as many`,
+    head: (tr) => [tr`unknown`, tr`U (k = 2) chosen`, ...(grid_of ? [tr`grid of ${grid_of}`] : []), tr`unit`],
     rows,
     digits: [undefined, 2, 2],
   });
@@ -225,25 +239,25 @@ const SHOWN = 300;
 export function programsPanel({ paths }: PlanHeader, dialect: HTMLElement): HTMLElement {
   const line = ({ name, text }: { name: string; text: string }): HTMLElement => {
     const lines = text.split("\n");
-    const more = lines.length > SHOWN ? `\n… ${number(lines.length - SHOWN, 0)} more lines are in the file` : "";
+    const more = lines.length > SHOWN ? `\n${tr`… ${number(lines.length - SHOWN, 0)} more lines are in the file`}` : "";
     const pre = h("pre", { class: "program", tabindex: "0" });
     const details = h(
       "details",
       { ontoggle: () => (pre.textContent = details.open ? `${lines.slice(0, SHOWN).join("\n")}${more}` : "") },
-      h("summary", {}, name, h("span", { class: "muted" }, ` ${lines.length} lines`)),
+      h("summary", {}, name, h("span", { class: "muted" }, ` ${tr`${lines.length} lines`}`)),
       pre,
     );
     return h(
       "div",
       { class: "program-line" },
       details,
-      h("button", { ariaLabel: `Save ${name}`, onclick: () => download(name, text) }, "Save"),
+      h("button", { ariaLabel: tr`Save ${name}`, onclick: () => download(name, text) }, tr`Save`),
     );
   };
   return h(
     "section",
     { class: "panel" },
-    h("div", { class: "panel-head" }, h("h2", {}, "Programs and tables of poses"), dialect),
+    h("div", { class: "panel-head" }, h("h2", {}, tr`Programs and tables of poses`), dialect),
     paths.flatMap((path) => path.files.map(line)),
   );
 }

@@ -1,5 +1,6 @@
 /** The error budget: what every error does alone, and what an index loses without it. */
 
+import { tr, trText } from "../../words/index.ts";
 import { fill, h } from "../../dom.ts";
 import { bars, type BarSpec } from "../../figure/bars.ts";
 import type { Figure } from "../../figure/figure.ts";
@@ -10,13 +11,13 @@ import { indicesOf, titleOf, worstOf, type Correction, type PieceDocument, type 
 type Group = "blame" | "blame_by_body" | "blame_by_kind";
 type Measure = "gain" | "alone";
 const GROUPS: readonly [Group, string][] = [
-  ["blame", "errors"],
-  ["blame_by_body", "axes"],
-  ["blame_by_kind", "kinds"],
+  ["blame", tr`by errors`],
+  ["blame_by_body", tr`by axes`],
+  ["blame_by_kind", tr`by kinds`],
 ];
 const MEASURES: readonly [Measure, string][] = [
-  ["gain", "gain without it"],
-  ["alone", "alone"],
+  ["gain", tr`gain without it`],
+  ["alone", tr`alone`],
 ];
 /** More bars than this hide what matters. */
 const MOST = 14;
@@ -29,15 +30,15 @@ export interface BudgetActions {
 }
 
 export class ErrorBudget {
-  private readonly index = h("select", { ariaLabel: "Index", onchange: () => this.draw() });
+  private readonly index = h("select", { ariaLabel: tr`Index`, onchange: () => this.draw() });
   private readonly group = h(
     "select",
-    { ariaLabel: "Grouped by", onchange: () => this.draw() },
-    GROUPS.map(([value, text]) => h("option", { value }, `by ${text}`)),
+    { ariaLabel: tr`Grouped by`, onchange: () => this.draw() },
+    GROUPS.map(([value, text]) => h("option", { value }, text)),
   );
   private readonly measure = h(
     "select",
-    { ariaLabel: "What the bars show", onchange: () => this.draw() },
+    { ariaLabel: tr`What the bars show`, onchange: () => this.draw() },
     MEASURES.map(([value, text]) => h("option", { value }, text)),
   );
   private readonly words = h("p", { class: "muted" });
@@ -87,13 +88,14 @@ export class ErrorBudget {
     // A share below the resolution of the figures is none.
     const shown = sorted.filter((share) => Math.abs(size(share)) >= 0.05);
     const spec: BarSpec = {
-      title: gain ? `What ${titleOf(key)} loses without it` : `${titleOf(key)} if there were only this error`,
+      title: gain ? tr`What ${titleOf(key)} loses without it` : tr`${titleOf(key)} if there were only this error`,
       unit: "µm",
       bars: shown.slice(0, MOST).map((share) => ({
-        name: share.error,
+        // The kinds are words, the errors and the axes names.
+        name: trText(share.error),
         value: size(share),
         colour: size(share) < 0 ? "var(--series-2)" : "var(--series-1)",
-        note: `alone ${um(1e3 * share.alone_mm)}, without it ${um(1e3 * share.without_mm)}`,
+        note: tr`alone ${um(1e3 * share.alone_mm)}, without it ${um(1e3 * share.without_mm)}`,
       })),
       signed: gain,
       ...(this.group.value === "blame" ? { onpick: (bar) => this.actions.without(bar.name) } : {}),
@@ -101,11 +103,13 @@ export class ErrorBudget {
     if (this.figure) this.figure.update(spec);
     else this.figure = bars(this.place, spec);
     const rest = shown.length - spec.bars.length;
-    const helps = gain && spec.bars.some((b) => (b.value ?? 0) < 0) ? " Orange: it helps by opposing others." : "";
+    const helps = gain && spec.bars.some((b) => (b.value ?? 0) < 0) ? tr` Orange: it helps by opposing others.` : "";
+    const more = rest > 0 ? tr` ${rest} smaller not shown.` : "";
+    const click = this.group.value === "blame" ? tr` Click: switch off.` : "";
     this.words.textContent =
       shown.length === 0
-        ? `No error matters to ${titleOf(key)}: ${um(1e3 * value)}.`
-        : `${titleOf(key)} is ${um(1e3 * value)}.${helps}${rest > 0 ? ` ${rest} smaller not shown.` : ""}${this.group.value === "blame" ? " Click: switch off." : ""}`;
+        ? tr`No error matters to ${titleOf(key)}: ${um(1e3 * value)}.`
+        : tr`${titleOf(key)} is ${um(1e3 * value)}.` + helps + more + click;
   }
 
   private showCorrections({ corrections: all, judgements: judged }: PieceDocument): void {
@@ -126,7 +130,11 @@ export class ErrorBudget {
         h(
           "td",
           { class: "number" },
-          h("button", { onclick: () => this.actions.correct(one.error, `${change} ${angle ? "urad" : "um"}`) }, "Try"),
+          h(
+            "button",
+            { onclick: () => this.actions.correct(one.error, `${change} ${angle ? "urad" : "um"}`) },
+            tr`Try`,
+          ),
         ),
       );
     };
@@ -138,8 +146,8 @@ export class ErrorBudget {
         h(
           "div",
           { class: "panel-head" },
-          h("h2", {}, "One correction that would do"),
-          h("span", { class: "muted" }, "smallest first, U as it is now; indices in µm after it"),
+          h("h2", {}, tr`One correction that would do`),
+          h("span", { class: "muted" }, tr`smallest first, U as it is now; indices in µm after it`),
         ),
         h(
           "table",
@@ -150,10 +158,10 @@ export class ErrorBudget {
             h(
               "tr",
               {},
-              h("th", {}, "shim"),
-              h("th", { class: "number" }, "by"),
+              h("th", {}, tr`shim`),
+              h("th", { class: "number" }, tr`by`),
               judged.map((j) => h("th", { class: "number" }, titleOf(j.index))),
-              h("th", {}, h("span", { class: "visually-hidden" }, "try it")),
+              h("th", {}, h("span", { class: "visually-hidden" }, tr`try it`)),
             ),
           ),
           h("tbody", {}, all.slice(0, 6).map(row)),

@@ -1,5 +1,6 @@
 /** Everything else that the prediction says. */
 
+import { tr, trText } from "../../words/index.ts";
 import { diagnosticList } from "../../app.ts";
 import { fill, h } from "../../dom.ts";
 import { lineChart, type ChartSpec } from "../../figure/chart.ts";
@@ -11,6 +12,8 @@ const micro = (value_mm: number | undefined, digits = 1): string =>
   number(value_mm === undefined ? null : 1e3 * value_mm, digits);
 const th = (text: string, numeric = true): HTMLElement => h("th", { class: numeric ? "number" : "" }, text);
 const td = (text: string): HTMLElement => h("td", { class: "number" }, text);
+/** Of the axes where the zero is set. */
+const UNITS = "   mm, °";
 
 export class Details {
   private readonly chart_place = h("div", { class: "panel" });
@@ -42,11 +45,11 @@ export class Details {
     const degrees = (i: number): Float64Array =>
       Float64Array.from(partOf(frame.f32("azimuth_rad"), sections, i), (a) => (a * 180) / Math.PI);
     const spec: ChartSpec = {
-      title: "Error along the azimuth, positive: material left",
-      x: { label: "azimuth", unit: "°", digits: 0 },
-      y: { label: "error", unit: "µm", digits: 1 },
+      title: tr`Error along the azimuth, positive: material left`,
+      x: { label: tr`azimuth`, unit: "°", digits: 0 },
+      y: { label: tr`error`, unit: "µm", digits: 1 },
       series: sections.map((section, i) => ({
-        name: `position ${i + 1}, z = ${number(section.z_mm, 0)} mm`,
+        name: tr`position ${i + 1}, z = ${number(section.z_mm, 0)} mm`,
         x: degrees(i),
         y: partOf(frame.f32("error_um"), sections, i),
       })),
@@ -61,8 +64,8 @@ export class Details {
     const names = Object.keys(document.commands[0] ?? {});
     const specs = names.map(
       (name): ChartSpec => ({
-        title: `Motion of ${name}`,
-        x: { label: "azimuth", unit: "°", digits: 0 },
+        title: tr`Motion of ${name}`,
+        x: { label: tr`azimuth`, unit: "°", digits: 0 },
         y: { label: name, unit: rotary.includes(name) ? "°" : "mm", digits: 3 },
         series: [{ name, x: azimuth, y: document.commands.map((command) => command[name] ?? NaN) }],
         height: 190,
@@ -82,11 +85,11 @@ function warnings(frame: PieceFrame): HTMLElement | null {
   return h(
     "section",
     { class: "panel" },
-    h("h2", {}, "Warnings"),
+    h("h2", {}, tr`Warnings`),
     h(
       "ul",
       { class: "warnings" },
-      document.warnings.map((text) => h("li", {}, text)),
+      document.warnings.map((text) => h("li", { lang: trText(text) === text ? "en" : null }, trText(text))),
     ),
     diagnostics.length > 0 ? diagnosticList(diagnostics) : null,
   );
@@ -103,13 +106,17 @@ function monteCarlo(document: PieceDocument): HTMLElement | null {
     h(
       "div",
       { class: "panel-head" },
-      h("h2", {}, "Monte Carlo, µm"),
-      h("span", { class: "muted" }, `JCGM 101, ${sampled.samples} samples, seed ${sampled.seed}`),
+      h("h2", {}, tr`Monte Carlo, µm`),
+      h("span", { class: "muted" }, tr`JCGM 101, ${sampled.samples} samples, seed ${sampled.seed}`),
     ),
     h(
       "table",
       {},
-      h("thead", {}, h("tr", {}, th("index", false), th("mean"), th("u"), th("u, linear"), th("95 % interval"))),
+      h(
+        "thead",
+        {},
+        h("tr", {}, th(tr`index`, false), th(tr`mean`), th("u"), th(tr`u, linear`), th(tr`95 % interval`)),
+      ),
       h(
         "tbody",
         {},
@@ -137,7 +144,7 @@ function variants(document: PieceDocument, before: PieceDocument | null): HTMLEl
   return h(
     "section",
     { class: "panel" },
-    h("h2", {}, "Compared, µm"),
+    h("h2", {}, tr`Compared, µm`),
     h(
       "table",
       {},
@@ -147,7 +154,7 @@ function variants(document: PieceDocument, before: PieceDocument | null): HTMLEl
         h(
           "tr",
           {},
-          th("set up", false),
+          th(tr`set up`, false),
           keys.map((key) => th(titleOf(key))),
         ),
       ),
@@ -157,7 +164,7 @@ function variants(document: PieceDocument, before: PieceDocument | null): HTMLEl
         h(
           "tr",
           {},
-          h("td", {}, before ? "as changed" : "as in the study"),
+          h("td", {}, before ? tr`as changed` : tr`as in the study`),
           keys.map((key) => td(micro(own.get(key)?.value))),
         ),
         document.variants.map((v) =>
@@ -179,7 +186,7 @@ function positions(document: PieceDocument): HTMLElement {
   return h(
     "section",
     { class: "panel" },
-    h("h2", {}, "At every position, µm"),
+    h("h2", {}, tr`At every position, µm`),
     h(
       "table",
       {},
@@ -189,7 +196,7 @@ function positions(document: PieceDocument): HTMLElement {
         h(
           "tr",
           {},
-          th("index", false),
+          th(tr`index`, false),
           document.positions.map((p) => th(`z = ${number(p.z_mm, 0)} mm`)),
         ),
       ),
@@ -214,8 +221,8 @@ function setting(document: PieceDocument): HTMLElement {
   return h(
     "section",
     { class: "panel" },
-    h("h2", {}, "Part zero is set at"),
-    h("p", { class: "numbers" }, at.join("   "), h("span", { class: "muted" }, "   mm, °")),
-    document.temperature_log ? h("p", {}, "temperatures of ", h("code", {}, document.temperature_log)) : null,
+    h("h2", {}, tr`Part zero is set at`),
+    h("p", { class: "numbers" }, at.join("   "), h("span", { class: "muted" }, UNITS)),
+    document.temperature_log ? h("p", {}, tr`temperatures of `, h("code", {}, document.temperature_log)) : null,
   );
 }

@@ -1,5 +1,6 @@
 /** The part as it will be: each point of its surfaces with its deviation and what made it so. */
 
+import { tr } from "../../words/index.ts";
 import {
   Color,
   DoubleSide,
@@ -52,7 +53,7 @@ export class DeviationMap {
       "button",
       {
         class: "figure-save",
-        ariaLabel: "Save the deviations as CSV",
+        ariaLabel: tr`Save the deviations as CSV`,
         onclick: () => this.frame && download("deviations.csv", csv(this.frame, this.owner), "text/csv"),
       },
       "CSV",
@@ -66,12 +67,12 @@ export class DeviationMap {
           { class: "scene-control" },
           h(
             "span",
-            { class: "group", role: "group", ariaLabel: "Points, the largest deviation first" },
+            { class: "group", role: "group", ariaLabel: tr`Points, the largest deviation first` },
             h(
               "button",
               {
-                ariaLabel: "Larger deviation",
-                title: "The point before, of larger deviation",
+                ariaLabel: tr`Larger deviation`,
+                title: tr`The point before, of larger deviation`,
                 onclick: () => this.step(-1),
               },
               "‹",
@@ -79,14 +80,14 @@ export class DeviationMap {
             h(
               "button",
               {
-                ariaLabel: "Smaller deviation",
-                title: "The next point, of smaller deviation",
+                ariaLabel: tr`Smaller deviation`,
+                title: tr`The next point, of smaller deviation`,
                 onclick: () => this.step(1),
               },
               "›",
             ),
           ),
-          "deviations",
+          tr`deviations`,
           this.magnifier.slider,
           this.magnifier.text,
           save,
@@ -150,13 +151,13 @@ export class DeviationMap {
       mesh.setColorAt(i, colour.setRGB(r, g, b, SRGBColorSpace));
     });
     if (mesh.instanceColor) mesh.instanceColor.needsUpdate = true;
-    this.view.showScale({ title: "deviation", unit: "µm", range: [-this.range, this.range], map });
+    this.view.showScale({ title: tr`deviation`, unit: "µm", range: [-this.range, this.range], map });
     this.view.requestRender();
   }
 
   private magnified(): void {
     this.view.overlay.note("factor", this.magnifier.words, "actual");
-    this.view.overlay.note("sign", "positive: material is left; press a point for its causes");
+    this.view.overlay.note("sign", tr`positive: material is left; press a point for its causes`);
     this.place();
   }
 
@@ -230,17 +231,17 @@ export class DeviationMap {
     fill(
       this.point,
       h("strong", { dataTest: "point-deviation" }, `${feature}: ${um("deviation_um")} µm`),
-      h("span", {}, ` at ${[...places].map((c, k) => `${"XYZ"[k]} ${c.toFixed(2)}`).join(" ")} mm; `),
-      h("span", { class: "muted" }, `program alone ${um("by_program_um")} µm; `),
+      h("span", {}, tr` at ${[...places].map((c, k) => `${"XYZ"[k]} ${c.toFixed(2)}`).join(" ")} mm; `),
+      h("span", { class: "muted" }, tr`program alone ${um("by_program_um")} µm; `),
       h(
         "span",
         { dataTest: "block" },
-        `T${u32("tool")}, ${program} line ${u32("line")}, ${number(frame.f32("time_s")[i] ?? 0, 1)} s. `,
+        tr`T${u32("tool")}, ${program} line ${u32("line")}, ${number(frame.f32("time_s")[i] ?? 0, 1)} s. `,
       ),
       h(
         "span",
         { dataTest: "causes" },
-        causes.length > 0 ? `Errors, in µm: ${causes.join(", ")}` : "No error moves it.",
+        causes.length > 0 ? tr`Errors, in µm: ${causes.join(", ")}` : tr`No error moves it.`,
       ),
     );
     this.view.overlay.label("point", `${um("deviation_um")} µm`, () => this.at(i));

@@ -1,18 +1,20 @@
 /** A part by its drawing: each characteristic against its tolerance, and where its surfaces are off. */
 
+import { tr, trText } from "../../words/index.ts";
 import { diagnosticList, split, type App } from "../../app.ts";
 import { fill, h } from "../../dom.ts";
 import { number } from "../../format.ts";
 import type { Frame } from "../../frame.ts";
 import { withErrorNames } from "../../glossary/glossary.ts";
+import { asCharacteristic } from "./characteristic.ts";
 import { DeviationMap } from "./deviationmap.ts";
 import { studyChoice } from "./summary.ts";
-import type { CharacteristicValue, CutPoint, DrawingHeader, Verdict } from "./types.ts";
+import { VERDICTS, type CharacteristicValue, type CutPoint, type DrawingHeader, type Verdict } from "./types.ts";
 
 const SENTENCES = {
-  pass: "the part will be in tolerance",
-  fail: "a characteristic will be out of tolerance",
-  undecided: "a characteristic is nearer to its limit than its uncertainty",
+  pass: tr`the part will be in tolerance`,
+  fail: tr`a characteristic will be out of tolerance`,
+  undecided: tr`a characteristic is nearer to its limit than its uncertainty`,
 };
 
 export class Drawing {
@@ -43,36 +45,36 @@ export class Drawing {
       h(
         "div",
         { class: "panel-head" },
-        h("h1", {}, document.name),
+        h("h1", { dataOwn: "" }, document.name),
         this.compensation(path, document),
         studyChoice(this.app, path),
       ),
-      h("p", { class: "muted" }, `${document.part}; ${document.steps} steps of the tools${withoutU(document)}`),
+      h("p", { class: "muted" }, tr`${document.part}; ${document.steps} steps of the tools${withoutU(document)}`),
       diagnosticList(diagnostics),
     );
     this.verdict.className = `verdict-band ${document.outcome}`;
     fill(
       this.verdict,
-      h("strong", { dataTest: "verdict" }, document.outcome.toUpperCase()),
+      h("strong", { dataTest: "verdict" }, VERDICTS[document.outcome as Verdict]),
       h("span", {}, SENTENCES[document.outcome as Verdict]),
       document.compensated_outcome
         ? h(
             "span",
             { dataTest: "compensated" },
-            `by the compensated program: ${document.compensated_outcome} with the zero kept, ${document.compensated_zero_set_outcome} with it set again`,
+            tr`by the compensated program: ${trText(document.compensated_outcome)} with the zero kept, ${trText(document.compensated_zero_set_outcome ?? "")} with it set again`,
           )
         : null,
       document.monte_carlo
         ? h(
             "span",
-            { class: "muted", dataTest: "many", title: `${document.monte_carlo.samples} machines drawn within u` },
-            `good on ${share(document.monte_carlo.good_ratio)} of machines`,
+            { class: "muted", dataTest: "many", title: tr`${document.monte_carlo.samples} machines drawn within u` },
+            tr`good on ${share(document.monte_carlo.good_ratio)} of machines`,
           )
         : null,
       h(
         "span",
         { class: "verdict-worst", dataTest: "worst" },
-        `${nearest.name}: ${number(100 * nearest.used_ratio, 0)} % of its tolerance`,
+        tr`${asCharacteristic(nearest)}: ${number(100 * nearest.used_ratio, 0)} % of its tolerance`,
       ),
       document.outcome === "pass"
         ? null
@@ -96,10 +98,10 @@ export class Drawing {
       {
         dataTest: "compensate",
         ariaPressed: String(is_shown),
-        title: "The part as the program of `compensate program` cuts it",
+        title: tr`The part as the program of \`compensate program\` cuts it`,
         onclick: () => this.app.go("predict", { study: path, compensated: is_shown ? null : "true" }),
       },
-      "Compensate the program",
+      tr`Compensate the program`,
     );
   }
 
@@ -108,7 +110,7 @@ export class Drawing {
       h(
         "tr",
         { class: i === this.chosen ? "judged" : "", dataSet: value.name, onclick: () => this.pick(document, value, i) },
-        h("td", {}, h("button", { class: "link" }, value.name)),
+        h("td", {}, h("button", { class: "link" }, asCharacteristic(value))),
         h("td", { class: "number", dataCell: "value" }, number(1e3 * value.value_mm, 2)),
         h("td", { class: "number muted", dataCell: "u" }, number(1e3 * value.u_mm, 2)),
         h("td", { class: "number muted" }, number(1e3 * value.points_mm, 2)),
@@ -121,7 +123,7 @@ export class Drawing {
       );
     fill(
       this.values,
-      h("div", { class: "panel-head" }, h("h2", {}, "Characteristics, in µm")),
+      h("div", { class: "panel-head" }, h("h2", {}, tr`Characteristics, in µm`)),
       h(
         "table",
         { class: "hole-sets" },
@@ -131,32 +133,36 @@ export class Drawing {
           h(
             "tr",
             {},
-            h("th", {}, "characteristic"),
-            h("th", { class: "number" }, "value"),
+            h("th", {}, tr`characteristic`),
+            h("th", { class: "number" }, tr`value`),
             h("th", { class: "number" }, "u"),
-            h("th", { class: "number", title: "by how much the value changes with half of the points" }, "points"),
-            h("th", { class: "number", title: "what the program leaves on a machine without errors" }, "program alone"),
-            h("th", { class: "number" }, "allowed"),
-            h("th", {}, "used"),
+            h("th", { class: "number", title: tr`by how much the value changes with half of the points` }, tr`points`),
+            h(
+              "th",
+              { class: "number", title: tr`what the program leaves on a machine without errors` },
+              tr`program alone`,
+            ),
+            h("th", { class: "number" }, tr`allowed`),
+            h("th", {}, tr`used`),
             document.monte_carlo
               ? h(
                   "th",
-                  { class: "number", title: "the share of machines drawn within u on which it is in tolerance" },
-                  "good on",
+                  { class: "number", title: tr`the share of machines drawn within u on which it is in tolerance` },
+                  tr`good on`,
                 )
               : null,
             document.compensated_outcome
               ? h(
                   "th",
-                  { class: "number", title: "by the compensated program, the zero where it was set before" },
-                  "zero kept",
+                  { class: "number", title: tr`by the compensated program, the zero where it was set before` },
+                  tr`zero kept`,
                 )
               : null,
             document.compensated_outcome
               ? h(
                   "th",
-                  { class: "number", title: "the same with the zero set again by compensated motion" },
-                  "zero set again",
+                  { class: "number", title: tr`the same with the zero set again by compensated motion` },
+                  tr`zero set again`,
                 )
               : null,
           ),
@@ -176,7 +182,7 @@ export class Drawing {
   private showBudget(value: CharacteristicValue): void {
     fill(
       this.budget,
-      h("div", { class: "panel-head" }, h("h2", {}, `Errors in ${value.name}, in µm`)),
+      h("div", { class: "panel-head" }, h("h2", {}, tr`Errors in ${asCharacteristic(value)}, in µm`)),
       h(
         "table",
         { class: "hole-sets" },
@@ -186,9 +192,9 @@ export class Drawing {
           h(
             "tr",
             {},
-            h("th", {}, "error"),
-            h("th", { class: "number" }, "without it"),
-            h("th", { class: "number" }, "change"),
+            h("th", {}, tr`error`),
+            h("th", { class: "number" }, tr`without it`),
+            h("th", { class: "number" }, tr`change`),
           ),
         ),
         h(
@@ -212,13 +218,13 @@ export class Drawing {
     const cell = (point: CutPoint): HTMLElement =>
       h(
         "td",
-        { class: "number", title: `${point.nominal_mm.map((c, k) => `${"XYZ"[k]} ${c.toFixed(2)}`).join(" ")} mm` },
+        { class: "number", title: placeOf(point) },
         number(1e3 * point.deviation_mm, 2),
-        h("span", { class: "muted" }, ` T${point.tool} line ${point.line}`),
+        h("span", { class: "muted" }, tr` T${point.tool} line ${point.line}`),
       );
     fill(
       this.surfaces,
-      h("div", { class: "panel-head" }, h("h2", {}, "Surfaces, deviations in µm")),
+      h("div", { class: "panel-head" }, h("h2", {}, tr`Surfaces, deviations in µm`)),
       h(
         "table",
         { class: "hole-sets" },
@@ -228,10 +234,10 @@ export class Drawing {
           h(
             "tr",
             {},
-            h("th", {}, "feature"),
-            h("th", { class: "number" }, "points"),
-            h("th", { class: "number" }, "most left"),
-            h("th", { class: "number" }, "most missing"),
+            h("th", {}, tr`feature`),
+            h("th", { class: "number" }, tr`points`),
+            h("th", { class: "number" }, tr`most left`),
+            h("th", { class: "number" }, tr`most missing`),
           ),
         ),
         h(
@@ -253,6 +259,9 @@ export class Drawing {
   }
 }
 
+const placeOf = (point: CutPoint): string =>
+  `${point.nominal_mm.map((c, k) => `${"XYZ"[k]} ${c.toFixed(2)}`).join(" ")} mm`;
+
 /** A value by the compensated program, in the colour of its verdict. */
 const compensated = (cell: string, found: CharacteristicValue["compensated"]): HTMLElement | null =>
   found ? h("td", { class: `number ${found.outcome}`, dataCell: cell }, number(1e3 * found.value_mm, 2)) : null;
@@ -260,18 +269,20 @@ const compensated = (cell: string, found: CharacteristicValue["compensated"]): H
 /** Which single correction would do. */
 const correction = (names: readonly string[]): string =>
   names.length === 0
-    ? "No single correction brings all characteristics into tolerance."
-    : `The correction of ${names.join(" alone, or of ")} alone brings all characteristics into tolerance.`;
+    ? tr`No single correction brings all characteristics into tolerance.`
+    : tr`The correction of ${names.join(tr` alone, or of `)} alone brings all characteristics into tolerance.`;
 
 /** What is not all is not called 100 %. */
 const share = (ratio: number): string =>
   ratio > 0.999 && ratio < 1 ? "> 99.9 %" : ratio > 0 && ratio < 0.001 ? "< 0.1 %" : `${number(100 * ratio, 1)} %`;
 
 /** What u leaves out. */
-const withoutU = ({ errors_without_u }: DrawingHeader["document"]): string =>
-  errors_without_u.length === 0
-    ? ""
-    : `; ${errors_without_u.length} errors of the machine file state no uncertainty and add nothing to u`;
+function withoutU({ errors_without_u: { length: n } }: DrawingHeader["document"]): string {
+  if (n === 0) return "";
+  return n === 1
+    ? tr`; 1 error of the machine file states no uncertainty and adds nothing to u`
+    : tr`; ${n} errors of the machine file state no uncertainty and add nothing to u`;
+}
 
 const allowed = (value: CharacteristicValue): string =>
   value.low_mm === null

@@ -1,5 +1,6 @@
 /** One error in the panel of changes: a switch, a factor to drag, a value to add. */
 
+import { tr } from "../../words/index.ts";
 import { h } from "../../dom.ts";
 import { number } from "../../format.ts";
 import { errorLink } from "../../glossary/glossary.ts";
@@ -23,21 +24,26 @@ export class ErrorRow {
     this.name = name;
     this.unit = unit;
     this.onchange = onchange;
-    this.on = h("input", { type: "checkbox", checked: true, ariaLabel: `${name} on`, onchange: () => this.changed() });
+    this.on = h("input", {
+      type: "checkbox",
+      checked: true,
+      ariaLabel: tr`${name} on`,
+      onchange: () => this.changed(),
+    });
     this.slider = h("input", {
       type: "range",
       min: "-2",
       max: "2",
       step: "0.05",
       value: "1",
-      ariaLabel: `Factor of ${name}`,
+      ariaLabel: tr`Factor of ${name}`,
       oninput: () => this.changed(true),
     });
     this.box = h("input", {
       type: "number",
       step: "any",
       value: "0",
-      ariaLabel: `Added to ${name}, ${unit === "µm" ? "micrometres" : "microradians"}`,
+      ariaLabel: unit === "µm" ? tr`Added to ${name}, micrometres` : tr`Added to ${name}, microradians`,
       oninput: () => this.changed(true),
     });
     this.element = h(
@@ -73,7 +79,7 @@ export class ErrorRow {
 
   private show(): void {
     const times = Number(this.slider.value);
-    this.text.textContent = this.on.checked ? `×${number(times, 2)}` : "off";
+    this.text.textContent = this.on.checked ? `×${number(times, 2)}` : tr`off`;
     this.element.classList.toggle("changed", this.change !== null);
   }
 

@@ -1,5 +1,6 @@
 /** Holes seen along the tool, with an arrow from where each should be to where it will be. */
 
+import { tr } from "../../words/index.ts";
 import { s } from "../../dom.ts";
 import { factor, um } from "../../format.ts";
 import { rangeOf } from "../../figure/colours.ts";
@@ -66,7 +67,7 @@ function drawPlan(d: Drawing, spec: HolePlanSpec): void {
 function holeMark(spec: HolePlanSpec, plan: Plan, hole: Hole, i: number, [x, y]: [number, number]): SVGGElement {
   const [dx, dy] = [plan.k * hole.error_um[0], -plan.k * hole.error_um[1]];
   const length = Math.hypot(dx, dy);
-  const words = `hole ${i + 1}: dX ${um(hole.error_um[0])}, dY ${um(hole.error_um[1])}`;
+  const words = tr`hole ${i + 1}: dX ${um(hole.error_um[0])}, dY ${um(hole.error_um[1])}`;
   const group = s("g", { class: "pick", tabindex: "0", role: "button", "aria-label": words }, s("title", {}, words));
   const within = spec.tolerance_um === null ? 0 : plan.k * spec.tolerance_um;
   if (within > 3 && within < EDGE)
@@ -114,21 +115,22 @@ function drawScale(d: Drawing, spec: HolePlanSpec, plan: Plan): void {
     s(
       "text",
       { x: 4, y: d.height - 6, fill: "var(--actual-ink)", "font-weight": "600" },
-      `arrows ${factor(plan.magnified)}`,
+      tr`arrows ${factor(plan.magnified)}`,
     ),
     s(
       "text",
       { x: d.width - 4, y: d.height - 6, "text-anchor": "end", fill: "var(--muted)" },
-      "X to the right, Y upwards",
+      tr`X to the right, Y upwards`,
     ),
   );
   if (spec.tolerance_um === null) return;
   const drawn = plan.k * spec.tolerance_um > 3 && plan.k * spec.tolerance_um < EDGE;
+  const tolerance = um(spec.tolerance_um, 0);
   d.svg.append(
     s(
       "text",
       { x: d.width - 4, y: 18, "text-anchor": "end", fill: "var(--muted)" },
-      `tolerance ${um(spec.tolerance_um, 0)}${drawn ? ", dashed" : ""}`,
+      drawn ? tr`tolerance ${tolerance}, dashed` : tr`tolerance ${tolerance}`,
     ),
   );
 }

@@ -1,14 +1,19 @@
 /** A study of holes: where each will be, without and with compensation. */
 
+import { tr, trText } from "../../words/index.ts";
 import { diagnosticList, split, type App } from "../../app.ts";
 import { fill, h } from "../../dom.ts";
 import type { Figure } from "../../figure/figure.ts";
 import { clock, number, um } from "../../format.ts";
 import { holePlan, type HolePlanSpec } from "./holeplan.ts";
 import { studyChoice } from "./summary.ts";
-import type { HoleSet, HolesHeader } from "./types.ts";
+import { VERDICTS, type HoleSet, type HolesHeader } from "./types.ts";
 
-const WORDS: Record<string, string> = { none: "none", machine: "machine only", comprehensive: "comprehensive" };
+const WORDS: Record<string, string> = {
+  none: tr`none`,
+  machine: tr`machine only`,
+  comprehensive: tr`comprehensive`,
+};
 const word = (name: string): string => WORDS[name] ?? name;
 const COLOURS = ["var(--series-1)", "var(--series-2)", "var(--series-3)"];
 
@@ -18,7 +23,7 @@ export class Holes {
   private readonly verdict = h("div", { class: "verdict-band", role: "status" });
   private readonly sets = h("div", { class: "panel" });
   private readonly table = h("div", { class: "panel predict-holes" });
-  private readonly picks = h("div", { class: "group", role: "group", ariaLabel: "Compensation" });
+  private readonly picks = h("div", { class: "group", role: "group", ariaLabel: tr`Compensation` });
   private readonly place = h("div", { class: "hole-plan" });
   private document: HolesHeader["document"] | null = null;
   private plan: Figure<HolePlanSpec> | null = null;
@@ -29,7 +34,7 @@ export class Holes {
     this.app = app;
     const { left, right } = split(host, "holes", 0.5);
     left.classList.add("predict-plan");
-    left.append(h("div", { class: "panel-head" }, h("h2", {}, "Where the holes will be"), this.picks), this.place);
+    left.append(h("div", { class: "panel-head" }, h("h2", {}, tr`Where the holes will be`), this.picks), this.place);
     right.append(this.head, this.verdict, this.sets, this.table);
   }
 
@@ -42,9 +47,9 @@ export class Holes {
     );
     fill(
       this.head,
-      h("div", { class: "panel-head" }, h("h1", {}, document.name), studyChoice(this.app, path)),
+      h("div", { class: "panel-head" }, h("h1", { dataOwn: "" }, document.name), studyChoice(this.app, path)),
       document.temperature_log
-        ? h("p", { class: "muted" }, "temperatures of ", h("code", {}, document.temperature_log))
+        ? h("p", { class: "muted" }, tr`temperatures of `, h("code", {}, document.temperature_log))
         : null,
     );
     this.showVerdict(document);
@@ -60,21 +65,25 @@ export class Holes {
 
   private showVerdict(document: HolesHeader["document"]): void {
     const good = document.in_tolerance;
+    const meaning =
+      good === null
+        ? tr`the study states no tolerance`
+        : good
+          ? tr`all stated tolerances will be kept`
+          : tr`a tolerance will not be kept`;
     const applied = document.sets.find((set) => set.compensation === document.applied);
     this.verdict.className = `verdict-band ${good === null ? "undecided" : good ? "pass" : "fail"}`;
     fill(
       this.verdict,
-      h("strong", { dataTest: "verdict" }, good === null ? "NO VERDICT" : good ? "PASS" : "FAIL"),
-      h(
-        "span",
-        {},
-        `${good === null ? "the study states no tolerance" : good ? "all stated tolerances will be kept" : "a tolerance will not be kept"}, compensation: ${word(document.applied)}`,
-      ),
+      h("strong", { dataTest: "verdict" }, good === null ? tr`NO VERDICT` : VERDICTS[good ? "pass" : "fail"]),
+      h("span", {}, tr`${meaning}, compensation: ${word(document.applied)}`),
       applied
         ? h(
             "span",
             { class: "verdict-worst", dataTest: "worst" },
-            `worst hole ${um(1e3 * applied.worst_mm)}${document.tolerance_mm === null ? "" : ` of ${um(1e3 * document.tolerance_mm)}`}`,
+            document.tolerance_mm === null
+              ? tr`worst hole ${um(1e3 * applied.worst_mm)}`
+              : tr`worst hole ${um(1e3 * applied.worst_mm)} of ${um(1e3 * document.tolerance_mm)}`,
           )
         : null,
     );
@@ -95,7 +104,7 @@ export class Holes {
         h(
           "td",
           { class: `used ${set.in_tolerance === null ? "" : set.in_tolerance ? "pass" : "fail"}` },
-          set.in_tolerance === null ? "" : set.in_tolerance ? "in tolerance" : "out of tolerance",
+          set.in_tolerance === null ? "" : set.in_tolerance ? tr`in tolerance` : tr`out of tolerance`,
         ),
       );
     fill(
@@ -103,11 +112,11 @@ export class Holes {
       h(
         "div",
         { class: "panel-head" },
-        h("h2", {}, "Compensation, worst hole in µm"),
+        h("h2", {}, tr`Compensation, worst hole in µm`),
         h(
           "span",
           { class: "muted" },
-          `${document.sets[0]?.holes.length ?? 0} holes; increments of ${um(1e3 * document.increment_mm, 0)}`,
+          tr`${document.sets[0]?.holes.length ?? 0} holes; increments of ${um(1e3 * document.increment_mm, 0)}`,
         ),
       ),
       h(
@@ -119,29 +128,29 @@ export class Holes {
           h(
             "tr",
             {},
-            h("th", {}, "compensation"),
-            h("th", { class: "number" }, "worst"),
+            h("th", {}, tr`compensation`),
+            h("th", { class: "number" }, tr`worst`),
             h("th", { class: "number" }, "U (k = 2)"),
-            h("th", { class: "number" }, "tolerance"),
-            h("th", {}, h("span", { class: "visually-hidden" }, "verdict")),
+            h("th", { class: "number" }, tr`tolerance`),
+            h("th", {}, h("span", { class: "visually-hidden" }, tr`verdict`)),
           ),
         ),
         h(
           "tbody",
           {},
           document.sets.map((set) => row(set, "")),
-          (document.sets_at_start ?? []).map((set) => row(set, ", temperatures of the start held")),
+          (document.sets_at_start ?? []).map((set) => row(set, tr`, temperatures of the start held`)),
         ),
       ),
       document.warnings.length > 0
         ? h(
             "ul",
             { class: "warnings" },
-            document.warnings.map((text) => h("li", {}, text)),
+            document.warnings.map((text) => h("li", { lang: "en" }, text)),
           )
         : null,
       document.u_lacks.length > 0
-        ? h("p", { class: "muted" }, `U lacks: ${document.u_lacks.join(", ")} (none stated).`)
+        ? h("p", { class: "muted" }, tr`U lacks: ${document.u_lacks.map(trText).join(", ")} (none stated).`)
         : null,
       diagnostics.length > 0 ? diagnosticList(diagnostics.filter((d) => !document.warnings.includes(d.message))) : null,
     );
@@ -160,7 +169,7 @@ export class Holes {
     const set = this.document?.sets[this.shown];
     if (!this.document || !set) return;
     const spec: HolePlanSpec = {
-      title: `Compensation: ${word(set.compensation)}, worst hole ${um(1e3 * set.worst_mm)}, U ${um(2e3 * set.u_worst_mm)}`,
+      title: tr`Compensation: ${word(set.compensation)}, worst hole ${um(1e3 * set.worst_mm)}, U ${um(2e3 * set.u_worst_mm)}`,
       holes: set.holes,
       tolerance_um: this.document.tolerance_mm === null ? null : 1e3 * this.document.tolerance_mm,
       colour: COLOURS[this.shown % COLOURS.length] ?? "var(--ink)",
@@ -188,20 +197,20 @@ export class Holes {
     const numeric = (text: string, cell?: string): HTMLElement =>
       h("td", { class: "number", dataCell: cell ?? null }, text);
     const words = [
-      "hole",
-      ...(timed ? ["time, min:s"] : []),
+      tr`hole`,
+      ...(timed ? [tr`time, min:s`] : []),
       "X, mm",
       "Y, mm",
       "dX",
       "dY",
-      "length",
+      tr`length`,
       "u(dX)",
       "u(dY)",
-      ...(set.compensation === "none" ? [] : ["added, increments"]),
+      ...(set.compensation === "none" ? [] : [tr`added, increments`]),
     ];
     fill(
       this.table,
-      h("div", { class: "panel-head" }, h("h2", {}, `Holes, compensation ${word(set.compensation)}, µm`)),
+      h("div", { class: "panel-head" }, h("h2", {}, tr`Holes, compensation ${word(set.compensation)}, µm`)),
       h(
         "table",
         {},

@@ -1,5 +1,6 @@
 /** The slider of the magnification of deviations: from 1 to the most that the picture takes, by its logarithm. */
 
+import { tr } from "../../words/index.ts";
 import { h } from "../../dom.ts";
 import { roundNumber } from "../../figure/figure.ts";
 import { factor } from "../../format.ts";
@@ -25,7 +26,7 @@ export class Magnifier {
       max: "100",
       step: "1",
       class: "exaggeration",
-      ariaLabel: "Magnification of the deviations",
+      ariaLabel: tr`Magnification of the deviations`,
       oninput: () => {
         this.apply();
         this.onMoved(this.state);
@@ -57,7 +58,7 @@ export class Magnifier {
 
   /** What a picture says of it. */
   get words(): string {
-    return this.k === 1 ? "true size (×1)" : `deviations ${factor(this.k)}`;
+    return this.k === 1 ? tr`true size (×1)` : tr`deviations ${factor(this.k)}`;
   }
 
   private apply(): void {

@@ -1,5 +1,6 @@
 /** The test piece with its error map. */
 
+import { tr } from "../../words/index.ts";
 import {
   BufferAttribute,
   BufferGeometry,
@@ -51,7 +52,7 @@ export class PieceView {
       "button",
       {
         class: "figure-save",
-        ariaLabel: "Save the error map as CSV",
+        ariaLabel: tr`Save the error map as CSV`,
         onclick: () => this.frame && download("error-map.csv", csv(this.frame), "text/csv"),
       },
       "CSV",
@@ -60,7 +61,7 @@ export class PieceView {
       h(
         "div",
         { class: "scene-bottom" },
-        h("div", { class: "scene-control" }, "deviations", this.magnifier.slider, this.magnifier.text, save),
+        h("div", { class: "scene-control" }, tr`deviations`, this.magnifier.slider, this.magnifier.text, save),
       ),
     );
     for (const object of [this.outline, this.top, this.marked]) object.frustumCulled = false;
@@ -91,7 +92,7 @@ export class PieceView {
 
   private magnified(): void {
     this.view.overlay.note("factor", this.magnifier.words, "actual");
-    this.view.overlay.note("sign", "error positive: material left; lines: nominal");
+    this.view.overlay.note("sign", tr`error positive: material left; lines: nominal`);
     this.draw();
   }
 
@@ -117,7 +118,7 @@ export class PieceView {
         map: isDark() ? divergingDark : diverging,
         range: [-this.range, this.range],
       },
-      { title: "error", unit: "µm" },
+      { title: tr`error`, unit: "µm" },
     );
     this.drawOutline(rings, m);
     this.drawTop(rings, m);
@@ -138,7 +139,7 @@ export class PieceView {
     const at = new Vector3(radius * Math.cos(azimuth), radius * Math.sin(azimuth), section.z_mm);
     this.view.overlay.label(
       "worst",
-      `greatest ${um(errors[worst])} at ${deg((azimuth * 180) / Math.PI, 0)}`,
+      tr`greatest ${um(errors[worst])} at ${deg((azimuth * 180) / Math.PI, 0)}`,
       () => at.clone(),
       "faint",
     );
@@ -177,7 +178,7 @@ export class PieceView {
     this.marked.material.color.set(cssColour("--actual"));
     // In front, as the first view sees it.
     const front = new Vector3(-0.527 * section.radius_mm, -0.85 * section.radius_mm, section.z_mm);
-    this.view.overlay.label("section", `section ${this.chosen + 1}, z = ${number(section.z_mm, 0)} mm`, () =>
+    this.view.overlay.label("section", tr`section ${this.chosen + 1}, z = ${number(section.z_mm, 0)} mm`, () =>
       front.clone(),
     );
   }

@@ -1,5 +1,6 @@
 /** One section of the test piece, magnified, with the circle that is fitted to it. */
 
+import { tr, trText } from "../../words/index.ts";
 import { fill, h } from "../../dom.ts";
 import type { Figure } from "../../figure/figure.ts";
 import { polar, type PolarCircle, type PolarSeries, type PolarSpec } from "../../figure/polar.ts";
@@ -15,12 +16,12 @@ const FITS: readonly [string, string, string][] = [
 ];
 
 export class Sections {
-  private readonly position = h("select", { ariaLabel: "Section of the test piece", onchange: () => this.draw() });
+  private readonly position = h("select", { ariaLabel: tr`Section of the test piece`, onchange: () => this.draw() });
   private readonly fit = h(
     "select",
-    { ariaLabel: "Fitted circle", onchange: () => this.draw() },
-    FITS.map(([name, letters]) => h("option", { value: name }, `${name} (${letters})`)),
-    h("option", { value: "all" }, "all four"),
+    { ariaLabel: tr`Fitted circle`, onchange: () => this.draw() },
+    FITS.map(([name, letters]) => h("option", { value: name }, `${trText(name)} (${letters})`)),
+    h("option", { value: "all" }, tr`all four`),
   );
   private readonly centred = h("input", { type: "checkbox", onchange: () => this.draw() });
   private readonly place = h("div", { class: "predict-polar" });
@@ -36,14 +37,14 @@ export class Sections {
       h(
         "div",
         { class: "panel-head" },
-        h("h2", {}, "Section"),
+        h("h2", {}, tr`Section`),
         this.position,
         this.fit,
         h(
           "label",
-          { class: "check", title: "Deviations from the fitted circle: the form, without eccentricity and size" },
+          { class: "check", title: tr`Deviations from the fitted circle: the form, without eccentricity and size` },
           this.centred,
-          "from this circle",
+          tr`from this circle`,
         ),
       ),
       this.words,
@@ -59,7 +60,7 @@ export class Sections {
       fill(
         this.position,
         sections.map((section, i) =>
-          h("option", { value: String(i) }, `position ${i + 1}, z = ${number(section.z_mm, 0)} mm`),
+          h("option", { value: String(i) }, tr`position ${i + 1}, z = ${number(section.z_mm, 0)} mm`),
         ),
       );
       this.position.value = String(firstShown(sections));
@@ -75,12 +76,12 @@ export class Sections {
     const fit = this.fit.value;
     this.centred.disabled = fit === "all";
     const about = this.centred.checked && fit !== "all" ? fit : null;
-    const series = [profile(frame, index, about, this.before ? "with the changes" : "profile", "var(--series-1)")];
+    const series = [profile(frame, index, about, this.before ? tr`with the changes` : tr`profile`, "var(--series-1)")];
     if (this.before)
-      series.push({ ...profile(this.before, index, about, "as in the file", "var(--muted)"), dash: "3 3" });
+      series.push({ ...profile(this.before, index, about, tr`as in the file`, "var(--muted)"), dash: "3 3" });
     const chosen = section.circles.filter((c) => fit === "all" || c.name === fit);
     const spec: PolarSpec = {
-      title: `z = ${number(section.z_mm, 0)} mm, radius ${mm(section.radius_mm, 3)}`,
+      title: tr`z = ${number(section.z_mm, 0)} mm, radius ${mm(section.radius_mm, 3)}`,
       unit: "µm",
       radius_mm: section.radius_mm,
       series,
@@ -131,7 +132,7 @@ function circlesOf(fit: FittedCircle, section: Section, centred: boolean): Polar
     ...(dash ? { dash } : {}),
   });
   if (fit.name === "minimum zone")
-    return [circle(fit.inner_mm, `${letters} inner`, "2 2"), circle(fit.outer_mm, `${letters} outer`)];
+    return [circle(fit.inner_mm, tr`${letters} inner`, "2 2"), circle(fit.outer_mm, tr`${letters} outer`)];
   if (fit.name === "maximum inscribed") return [circle(fit.inner_mm, letters)];
   if (fit.name === "minimum circumscribed") return [circle(fit.outer_mm, letters)];
   return [circle(fit.radius_mm, letters)];
@@ -139,5 +140,5 @@ function circlesOf(fit: FittedCircle, section: Section, centred: boolean): Polar
 
 function wordsOf(fit: FittedCircle): string {
   const [x, y] = fit.centre_mm;
-  return `${fit.name}: roundness ${um(1e3 * (fit.outer_mm - fit.inner_mm))}, centre X ${um(1e3 * x)}, Y ${um(1e3 * y)}`;
+  return tr`${trText(fit.name)}: roundness ${um(1e3 * (fit.outer_mm - fit.inner_mm))}, centre X ${um(1e3 * x)}, Y ${um(1e3 * y)}`;
 }

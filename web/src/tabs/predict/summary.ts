@@ -1,5 +1,6 @@
 /** The verdict, and every index with U against its tolerance. */
 
+import { tr } from "../../words/index.ts";
 import type { App } from "../../app.ts";
 import { download, fill, h, s } from "../../dom.ts";
 import { csvOf, fileName } from "../../figure/figure.ts";
@@ -7,7 +8,9 @@ import { NO_NUMBER, number, um } from "../../format.ts";
 import {
   expanded,
   indicesOf,
+  nameOf,
   titleOf,
+  VERDICTS,
   worstOf,
   type IndexValue,
   type Judgement,
@@ -15,10 +18,10 @@ import {
   type Verdict,
 } from "./types.ts";
 
-const WORDS: Record<Verdict, [string, string]> = {
-  pass: ["PASS", "the part will be in tolerance"],
-  fail: ["FAIL", "the part will be out of tolerance"],
-  undecided: ["UNDECIDED", "the tolerance lies within the uncertainty"],
+const MEANINGS: Record<Verdict, string> = {
+  pass: tr`the part will be in tolerance`,
+  fail: tr`the part will be out of tolerance`,
+  undecided: tr`the tolerance lies within the uncertainty`,
 };
 
 interface Row {
@@ -52,7 +55,7 @@ export class Summary {
   private showHead(path: string, document: PieceDocument): void {
     fill(
       this.head,
-      h("div", { class: "panel-head" }, h("h1", {}, document.study), studyChoice(this.app, path)),
+      h("div", { class: "panel-head" }, h("h1", { dataOwn: "" }, document.study), studyChoice(this.app, path)),
       h(
         "p",
         { class: "muted" },
@@ -67,18 +70,19 @@ export class Summary {
 
   private showVerdict(document: PieceDocument, before: PieceDocument | null): void {
     const worst = worstOf(document);
-    const [word, meaning] = worst ? WORDS[document.verdict] : ["NO VERDICT", "the test piece states no tolerance"];
+    const word = worst ? VERDICTS[document.verdict] : tr`NO VERDICT`;
+    const meaning = worst ? MEANINGS[document.verdict] : tr`the test piece states no tolerance`;
     this.verdict.className = `verdict-band ${worst ? document.verdict : "undecided"}`;
-    const changed = before && before.verdict !== document.verdict ? `, was ${WORDS[before.verdict][0]}` : "";
+    const changed = before && before.verdict !== document.verdict ? tr`, was ${VERDICTS[before.verdict]}` : "";
     fill(
       this.verdict,
       h("strong", { dataTest: "verdict" }, word),
-      h("span", {}, before ? `if changed so: ${meaning}${changed}` : meaning),
+      h("span", {}, before ? tr`if changed so: ${meaning}${changed}` : meaning),
       worst
         ? h(
             "span",
             { class: "verdict-worst", dataTest: "worst" },
-            `${titleOf(worst.index)} ${um(1e3 * worst.value_mm)} of ${um(1e3 * worst.tolerance_mm)}, ${number(100 * worst.used_ratio, 0)} % used`,
+            tr`${titleOf(worst.index)} ${um(1e3 * worst.value_mm)} of ${um(1e3 * worst.tolerance_mm)}, ${number(100 * worst.used_ratio, 0)} % used`,
           )
         : null,
     );
@@ -91,7 +95,7 @@ export class Summary {
     const more = h(
       "button",
       { class: "figure-save", dataTest: "more-indices", onclick: () => this.toggle(document, before) },
-      this.all ? "only the judged" : `all ${every.length}`,
+      this.all ? tr`only the judged` : tr`all ${every.length}`,
     );
     const most = Math.max(
       1e-9,
@@ -100,26 +104,26 @@ export class Summary {
       ),
     );
     const certain = every.every(({ value }) => value.u_mm === 0);
-    const u_words = certain ? "no uncertainty stated" : "U for k = 2";
+    const u_words = certain ? tr`no uncertainty stated` : tr`U for k = 2`;
     const rule = document.judgements.some((j) => j.expanded_mm !== null)
-      ? "judged by ISO 14253-1 with U"
-      : `simple acceptance: value against tolerance; ${u_words}`;
+      ? tr`judged by ISO 14253-1 with U`
+      : tr`simple acceptance: value against tolerance; ${u_words}`;
     const save = h(
       "button",
       {
         class: "figure-save",
-        ariaLabel: "Save the indices as CSV",
+        ariaLabel: tr`Save the indices as CSV`,
         onclick: () => download(`${fileName(document.study)}-indices.csv`, csv(every), "text/csv"),
       },
       "CSV",
     );
-    const words = ["index", ...(before ? ["before"] : []), "value", "U", "tolerance", "used", ""];
+    const words = [tr`index`, ...(before ? [tr`before`] : []), tr`value`, "U", tr`tolerance`, tr`used`, ""];
     fill(
       this.table,
       h(
         "div",
         { class: "panel-head" },
-        h("h2", {}, "Indices, µm"),
+        h("h2", {}, tr`Indices, µm`),
         h("span", { class: "muted" }, rule),
         judged.length > 0 && judged.length < every.length ? more : null,
         save,
@@ -140,10 +144,10 @@ export class Summary {
                   class: i === 0 || word === "" ? "" : "number",
                   title:
                     word === "U"
-                      ? "expanded uncertainty: that of the decision rule where the study judges by ISO 14253-1, else for k = 2"
+                      ? tr`expanded uncertainty: that of the decision rule where the study judges by ISO 14253-1, else for k = 2`
                       : null,
                 },
-                word || h("span", { class: "visually-hidden" }, "bar"),
+                word || h("span", { class: "visually-hidden" }, tr`bar`),
               ),
             ),
           ),
@@ -243,7 +247,7 @@ function bar(
 
 function csv(rows: readonly Row[]): string {
   return csvOf([
-    { heading: "index", values: rows.map((r) => titleOf(r.key)) },
+    { heading: "index", values: rows.map((r) => nameOf(r.key)) },
     { heading: "value (um)", values: rows.map((r) => 1e3 * r.value.value) },
     { heading: "u (um)", values: rows.map((r) => 1e3 * r.value.u_mm) },
     { heading: "tolerance (um)", values: rows.map((r) => (r.judged ? 1e3 * r.judged.tolerance_mm : null)) },
@@ -257,7 +261,7 @@ export function studyChoice(app: App, path: string): HTMLElement {
   const files = app.state.project?.files.filter((f) => f.kind === "study") ?? [];
   const choose = h(
     "select",
-    { ariaLabel: "Study", onchange: () => app.go("predict", { study: choose.value }) },
+    { ariaLabel: tr`Study`, onchange: () => app.go("predict", { study: choose.value }) },
     [...new Set([path, ...files.map((f) => f.path)])].map((p) => h("option", { value: p }, p)),
   );
   choose.value = path;
@@ -265,6 +269,6 @@ export function studyChoice(app: App, path: string): HTMLElement {
     "span",
     { class: "predict-choice" },
     choose,
-    h("button", { onclick: () => app.go("report", { verb: "predict", file: path }) }, "Report"),
+    h("button", { onclick: () => app.go("report", { verb: "predict", file: path }) }, tr`Report`),
   );
 }

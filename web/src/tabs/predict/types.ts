@@ -1,10 +1,12 @@
 /** The answers of `predict` and `what-if`, and the names of the indices. */
 
+import { tr, trText } from "../../words/index.ts";
 import type { Diagnostic } from "../../api.ts";
 import type { DrawingDocument, DrawingEntry } from "../../../types.d.ts";
 import type { Frame } from "../../frame.ts";
 
 export type Verdict = "pass" | "fail" | "undecided";
+export const VERDICTS: Readonly<Record<Verdict, string>> = { pass: tr`PASS`, fail: tr`FAIL`, undecided: tr`UNDECIDED` };
 
 export interface Spread {
   mean_mm: number;
@@ -148,7 +150,10 @@ const TITLES: Record<string, string> = {
   volumetric_max_mm: "greatest deviation of the tip",
 };
 
-export const titleOf = (key: string): string => TITLES[key] ?? key.replace(/_mm$/, "").replaceAll("_", " ");
+/** As the command line and the tables that are saved say. */
+export const nameOf = (key: string): string => TITLES[key] ?? key.replace(/_mm$/, "").replaceAll("_", " ");
+
+export const titleOf = (key: string): string => trText(nameOf(key));
 
 /** All indices of a document by key, in its order. */
 export function indicesOf(grouped: Grouped): Map<string, IndexValue> {

@@ -1,5 +1,6 @@
 /** The panel of changes: switch errors off or drag them, set the part up otherwise. */
 
+import { tr } from "../../words/index.ts";
 import type { Request } from "../../api.ts";
 import type { Refusal } from "../../api.ts";
 import { fill, h } from "../../dom.ts";
@@ -27,12 +28,12 @@ export class WhatIf {
   private readonly title = h("span", { class: "muted", dataTest: "changes" });
   private readonly time = h("span", { class: "muted", dataTest: "what-if-time", role: "status" });
   private readonly refused = h("p", { class: "what-if-refused", role: "alert", hidden: true });
-  private readonly reset_button = h("button", { dataTest: "reset", onclick: () => this.reset() }, "As in the file");
+  private readonly reset_button = h("button", { dataTest: "reset", onclick: () => this.reset() }, tr`As in the file`);
   private readonly search = h("input", {
     type: "text",
     class: "what-if-search",
-    placeholder: "find an error, such as EC0Y",
-    ariaLabel: "Find an error",
+    placeholder: tr`find an error, such as EC0Y`,
+    ariaLabel: tr`Find an error`,
     oninput: () => this.filter(),
   });
   private readonly all_button = h("button", { ariaPressed: "false", onclick: () => this.toggleAll() });
@@ -62,11 +63,11 @@ export class WhatIf {
             h(
               "tr",
               {},
-              h("th", {}, "on"),
-              h("th", {}, "error"),
-              h("th", {}, "times, −2 … +2"),
-              h("th", { class: "number" }, "factor"),
-              h("th", { class: "number" }, "added"),
+              h("th", {}, tr`on`),
+              h("th", {}, tr`error`),
+              h("th", {}, tr`times, −2 … +2`),
+              h("th", { class: "number" }, tr`factor`),
+              h("th", { class: "number" }, tr`added`),
             ),
           ),
           this.rows_place,
@@ -98,7 +99,9 @@ export class WhatIf {
     this.rotary = new Map(
       header.rotary.map((name) => [name, set(name, -180, 180, 1, "°", header.document.setting_command[name] ?? null)]),
     );
-    this.tool = set("tool length", 0, Math.max(100, 2 * header.tool_length_mm), 1, "mm", header.tool_length_mm);
+    const known = header.tool_length_mm;
+    const reach = { from: 0, to: Math.max(100, 2 * known), step: 1, unit: "mm", known };
+    this.tool = this.setting("tool length", reach, tr`tool length`);
     this.sensors = new Map(header.sensors.map((name) => [name, set(name, 0, 50, 0.1, "°C", null)]));
     const table = (title: string, what: string, settings: Iterable<Setting>): HTMLElement =>
       h(
@@ -118,10 +121,14 @@ export class WhatIf {
       );
     fill(
       this.settings_place,
-      table("Where the part zero is touched", "Position of the rotary axes when the zero is set", this.rotary.values()),
-      table("Tool", "From the holder to the tip", [this.tool]),
+      table(
+        tr`Where the part zero is touched`,
+        tr`Position of the rotary axes when the zero is set`,
+        this.rotary.values(),
+      ),
+      table(tr`Tool`, tr`From the holder to the tip`, [this.tool]),
       this.sensors.size > 0
-        ? table("Temperatures", "What the sensors of the machine say", this.sensors.values())
+        ? table(tr`Temperatures`, tr`What the sensors of the machine say`, this.sensors.values())
         : null,
     );
   }
@@ -129,9 +136,15 @@ export class WhatIf {
   private setting(
     name: string,
     scale: { from: number; to: number; step: number; unit: string; known: number | null },
+    shown = name,
   ): Setting {
     const { from, to, step, unit, known } = scale;
-    const words = `${name} in ${unit === "°" ? "degrees" : unit === "mm" ? "millimetres" : "degrees Celsius"}`;
+    const words =
+      unit === "°"
+        ? tr`${shown} in degrees`
+        : unit === "mm"
+          ? tr`${shown} in millimetres`
+          : tr`${shown} in degrees Celsius`;
     const slider = h("input", {
       type: "range",
       min: from,
@@ -145,15 +158,15 @@ export class WhatIf {
       type: "number",
       step: "any",
       value: known === null ? "" : String(rounded(known)),
-      placeholder: "in file",
-      ariaLabel: `${words}, exactly`,
+      placeholder: tr`in file`,
+      ariaLabel: tr`${words}, exactly`,
       dataSettingBox: name,
     });
-    const text = known === null ? "" : `in the file ${unit === "°" ? deg(known) : mm(known, 1)}`;
+    const text = known === null ? "" : tr`in the file ${unit === "°" ? deg(known) : mm(known, 1)}`;
     const element = h(
       "tr",
       {},
-      h("td", { class: "axis-name" }, name),
+      h("td", { class: "axis-name" }, shown),
       h("td", { class: "axis-slider" }, slider),
       h("td", { class: "number" }, box, h("span", { class: "unit" }, unit)),
       h("td", { class: "muted" }, text),
@@ -265,7 +278,7 @@ export class WhatIf {
 
   private showState(): void {
     const count = this.rows.filter((r) => r.change).length + this.settings().filter((s) => s.value !== null).length;
-    this.title.textContent = count === 0 ? "nothing changed" : count === 1 ? "1 change" : `${count} changes`;
+    this.title.textContent = count === 0 ? tr`nothing changed` : count === 1 ? tr`1 change` : tr`${count} changes`;
     this.reset_button.disabled = count === 0;
   }
 
@@ -307,14 +320,14 @@ export class WhatIf {
     this.rows.forEach((row, i) => {
       row.element.hidden = !(wanted ? row.name.toUpperCase().includes(wanted) : this.all || i < SHOWN || row.change);
     });
-    this.all_button.textContent = this.all ? `only the ${SHOWN} that matter most` : `all ${this.rows.length}`;
+    this.all_button.textContent = this.all ? tr`only the ${SHOWN} that matter most` : tr`all ${this.rows.length}`;
     this.all_button.setAttribute("aria-pressed", String(this.all));
   }
 
   answered(answer_ms: number, drawn_ms: number): void {
     this.time.dataset.answer = String(answer_ms);
     this.time.dataset.drawn = String(drawn_ms);
-    this.time.textContent = `answered in ${number(answer_ms, 0)} ms, drawn after ${number(drawn_ms, 0)} ms`;
+    this.time.textContent = tr`answered in ${number(answer_ms, 0)} ms, drawn after ${number(drawn_ms, 0)} ms`;
   }
 
   refuse(refusal: Refusal): void {
@@ -322,7 +335,7 @@ export class WhatIf {
     this.refused.hidden = false;
     fill(
       this.refused,
-      h("strong", {}, "Not computed; the figures are those before. "),
+      h("strong", {}, tr`Not computed; the figures are those before. `),
       refusal.message,
       refusal.hint ? `. ${refusal.hint}` : "",
     );

@@ -1,34 +1,35 @@
 /** The heading of a report as fields: docs/reference/report.md. */
 
+import { tr } from "../../words/index.ts";
 import type { FileForm } from "../../filedialog.ts";
 import { fieldsForm, type Group } from "../../fieldsform.ts";
 import { date, field } from "../../toml.ts";
 
 const GROUPS: readonly Group[] = [
   {
-    title: "Report",
+    title: tr`Report`,
     fields: [
-      { ...field("report", "number", "Number", "2026-117"), needed: true },
-      { ...date("report", "date", "Date"), needed: true },
-      field("report", "customer", "Customer", "Example Turbines"),
-      field("report", "machine", "Machine", "gantry in hall 3"),
-      field("report", "machine_serial", "Serial number of the machine", "XK-0815"),
-      field("report", "operator", "Operator", "A. Meyer"),
-      field("report", "place", "Place", "hall 3"),
-      field("report", "conditions", "Conditions", "20.3 ± 0.2 degC, table empty"),
-      field("report", "remarks", "Remarks", "before the overhaul of the C axis"),
-      field("report", "logo", "Logo: SVG, PNG or JPEG beside this file", "logo.svg"),
-      { ...field("report", "signatures", "Signatures, between commas", "measured, approved"), kind: "texts" },
+      { ...field("report", "number", tr`Number`, "2026-117"), needed: true },
+      { ...date("report", "date", tr`Date`), needed: true },
+      field("report", "customer", tr`Customer`, tr`Example Turbines`),
+      field("report", "machine", tr`Machine`, tr`gantry in hall 3`),
+      field("report", "machine_serial", tr`Serial number of the machine`, "XK-0815"),
+      field("report", "operator", tr`Operator`, "A. Meyer"),
+      field("report", "place", tr`Place`, tr`hall 3`),
+      field("report", "conditions", tr`Conditions`, tr`20.3 ± 0.2 degC, table empty`),
+      field("report", "remarks", tr`Remarks`, tr`before the overhaul of the C axis`),
+      field("report", "logo", tr`Logo: SVG, PNG or JPEG beside this file`, "logo.svg"),
+      { ...field("report", "signatures", tr`Signatures, between commas`, "measured, approved"), kind: "texts" },
     ],
   },
   {
-    title: "Instrument: with its name, certificate and day of calibration",
+    title: tr`Instrument: with its name, certificate and day of calibration`,
     fields: [
-      field("report.instrument[]", "name", "Instrument", "laser interferometer"),
-      field("report.instrument[]", "serial", "Serial number", "L-77"),
-      field("report.instrument[]", "certificate", "Certificate", "K 2026-0042"),
-      date("report.instrument[]", "calibrated", "Calibrated"),
-      date("report.instrument[]", "valid_until", "Valid until"),
+      field("report.instrument[]", "name", tr`Instrument`, tr`laser interferometer`),
+      field("report.instrument[]", "serial", tr`Serial number`, "L-77"),
+      field("report.instrument[]", "certificate", tr`Certificate`, "K 2026-0042"),
+      date("report.instrument[]", "calibrated", tr`Calibrated`),
+      date("report.instrument[]", "valid_until", tr`Valid until`),
     ],
   },
 ];
@@ -41,7 +42,7 @@ function today(): string {
 }
 
 export function headingForm(): FileForm {
-  const note = "It stands above the report, with lines for signatures below. A further instrument: edit the file.";
+  const note = tr`It stands above the report, with lines for signatures below. A further instrument: edit the file.`;
   return fieldsForm("Heading of reports", note, GROUPS, {
     "report.date": today(),
     "report.signatures": "measured, approved",

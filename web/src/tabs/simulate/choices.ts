@@ -1,5 +1,6 @@
 /** Which machine, program, set-up and control; a program may also be dropped anywhere on the tab. */
 
+import { tr } from "../../words/index.ts";
 import type { App } from "../../app.ts";
 import { Refusal, type FileKind } from "../../api.ts";
 import { fill, h } from "../../dom.ts";
@@ -28,7 +29,7 @@ const CONTROLS: readonly [string, string][] = [
 const MOST_BYTES = 60e6;
 
 export class Choices {
-  readonly element = h("section", { class: "panel simulate-choices", ariaLabel: "What is simulated" });
+  readonly element = h("section", { class: "panel simulate-choices", ariaLabel: tr`What is simulated` });
   private readonly app: App;
   private choice: Choice = { machine: null, program: null, setup: null, control: null };
   private dropped: Dropped | null = null;
@@ -48,30 +49,35 @@ export class Choices {
     const input = h("input", {
       type: "file",
       class: "drop-input",
-      ariaLabel: "Open a program of this computer",
+      ariaLabel: tr`Open a program of this computer`,
       onchange: () => void this.take(input.files?.[0]),
     });
     fill(
       this.element,
       this.labelled(
-        "Machine",
-        this.select("machine", this.files("machine", choice.machine), "choose a machine", choice.machine),
+        tr`Machine`,
+        this.select("machine", this.files("machine", choice.machine), tr`choose a machine`, choice.machine),
       ),
       this.labelled(
-        "Program",
+        tr`Program`,
         this.program(),
-        h("label", { class: "button", title: "Or drop it anywhere on this page" }, "Open …", input),
+        h("label", { class: "button", title: tr`Or drop it anywhere on this page` }, tr`Open …`, input),
       ),
       this.labelled(
-        "Set-up",
-        this.select("setup", this.files("setup", choice.setup), dropped ? "none" : "beside the program", choice.setup),
+        tr`Set-up`,
+        this.select(
+          "setup",
+          this.files("setup", choice.setup),
+          dropped ? tr`none` : tr`beside the program`,
+          choice.setup,
+        ),
         h(
           "button",
-          { dataTest: "edit-set-up", title: "Work offset, tools, stock", onclick: () => this.edit() },
-          "Edit …",
+          { dataTest: "edit-set-up", title: tr`Work offset, tools, stock`, onclick: () => this.edit() },
+          tr`Edit …`,
         ),
       ),
-      this.labelled("Control", this.select("control", CONTROLS, "automatic", choice.control)),
+      this.labelled(tr`Control`, this.select("control", CONTROLS, tr`automatic`, choice.control)),
     );
   }
 
@@ -82,8 +88,8 @@ export class Choices {
       this.app.fail(
         new Refusal(
           "dropped-file",
-          `${file.name} is larger than 60 MB`,
-          "Put it into the project folder and choose it there, or simulate it with `trueaxis simulate`.",
+          tr`${file.name} is larger than 60 MB`,
+          tr`Put it into the project folder and choose it there, or simulate it with \`trueaxis simulate\`.`,
         ),
       );
       return;
@@ -93,8 +99,8 @@ export class Choices {
       this.app.fail(
         new Refusal(
           "dropped-file",
-          `${file.name} is not a text`,
-          "Drop an NC program as the control reads it (SINUMERIK, FANUC, LinuxCNC or HEIDENHAIN Klartext).",
+          tr`${file.name} is not a text`,
+          tr`Drop an NC program as the control reads it (SINUMERIK, FANUC, LinuxCNC or HEIDENHAIN Klartext).`,
         ),
       );
       return;
@@ -113,8 +119,8 @@ export class Choices {
 
   private program(): HTMLElement {
     const files = this.files("program", this.choice.program);
-    if (!this.dropped) return this.select("program", files, "choose a program", this.choice.program);
-    return this.select("program", files, `${this.dropped.name} (of this computer)`, null);
+    if (!this.dropped) return this.select("program", files, tr`choose a program`, this.choice.program);
+    return this.select("program", files, tr`${this.dropped.name} (of this computer)`, null);
   }
 
   private select(
@@ -124,10 +130,10 @@ export class Choices {
     value: string | null,
   ): HTMLElement {
     const titles: Record<keyof Choice, string> = {
-      machine: "Machine file",
-      program: "NC program",
-      setup: "Set-up: work offsets, tools, stock",
-      control: "Whose program it is",
+      machine: tr`Machine file`,
+      program: tr`NC program`,
+      setup: tr`Set-up: work offsets, tools, stock`,
+      control: tr`Whose program it is`,
     };
     const select = h(
       "select",

@@ -1,5 +1,6 @@
 /** Axis positions, velocities and deviations over time: least and greatest in each step, finer in a window. */
 
+import { tr, trText } from "../../words/index.ts";
 import { latestOnly } from "../../api.ts";
 import { fill, h } from "../../dom.ts";
 import { number, withUnit } from "../../format.ts";
@@ -10,7 +11,14 @@ import type { CurvesHeader, Quantity, Simulation } from "./answers.ts";
 const COLUMNS = 600;
 const FIRST_SHOWN = ["tip", "path.speed", "X", "X.speed"];
 /** Words of the buttons for what is not an axis. */
-const SHORT: Record<string, string> = { "path.speed": "speed", tip: "deviation", axis: "tilt" };
+const SHORT: Record<string, string> = {
+  "path.speed": tr`speed`,
+  tip: tr`deviation`,
+  feed: tr`feed`,
+  normal: tr`normal`,
+  binormal: tr`binormal`,
+  axis: tr`tilt`,
+};
 
 interface Asked {
   simulation: Simulation;
@@ -26,6 +34,14 @@ export interface CurvesOwner {
   failed(error: unknown): void;
 }
 
+/** The titles of an axis have its name in them. */
+function titleOf({ key, title }: Quantity): string {
+  const axis = key.replace(/\.speed$/, "");
+  if (title === `Position of ${axis}`) return tr`Position of ${axis}`;
+  if (title === `Speed of ${axis}`) return tr`Speed of ${axis}`;
+  return trText(title);
+}
+
 export class Curves {
   readonly element: HTMLElement;
   private readonly choice = h("div", { class: "curves-choice" });
@@ -35,11 +51,11 @@ export class Curves {
     {
       class: "curves-whole",
       hidden: true,
-      title: "Show the whole time again (double click)",
+      title: tr`Show the whole time again (double click)`,
       dataTest: "whole-time",
       onclick: () => this.zoomOut(),
     },
-    "Whole time",
+    tr`Whole time`,
   );
   private readonly plots = new Map<string, TimePlot>();
   private readonly owner: CurvesOwner;
@@ -55,7 +71,7 @@ export class Curves {
 
   constructor(owner: CurvesOwner) {
     this.owner = owner;
-    this.element = h("section", { class: "curves", ariaLabel: "Curves over time" }, this.choice, this.plots_place);
+    this.element = h("section", { class: "curves", ariaLabel: tr`Curves over time` }, this.choice, this.plots_place);
   }
 
   setSimulation(simulation: Simulation): void {
@@ -115,14 +131,16 @@ export class Curves {
   }
 
   private spec(quantity: Quantity, time_s: Float64Array, low: Float64Array, high: Float64Array): TimePlotSpec {
-    const { title, unit, limits, key } = quantity;
+    const { unit, limits, key } = quantity;
+    const title = titleOf(quantity);
     const marks: TimeMark[] = (this.simulation?.header.marks ?? [])
       .filter((m) => m.grave)
-      .map((m) => ({ time_s: m.time_s, label: m.text, kind: "error" }));
-    const lines = (limits ?? []).map((value, i) => ({
-      value,
-      label: `${i === 0 ? "least" : "greatest"} ${key.endsWith(".speed") ? "velocity" : "travel"}`,
-    }));
+      .map((m) => ({ time_s: m.time_s, label: trText(m.text), kind: "error" }));
+    const labels = key.endsWith(".speed")
+      ? [tr`least velocity`, tr`greatest velocity`]
+      : [tr`least travel`, tr`greatest travel`];
+    const lines = (limits ?? []).map((value, i) => ({ value, label: labels[i] ?? "" }));
+    // Their names are headings of the CSV file.
     const series = [
       { name: "least", values: low, colour: 0 },
       { name: "greatest", values: high, colour: 0, filled: true },
@@ -170,17 +188,17 @@ export class Curves {
     fill(
       this.choice,
       group(
-        "Position",
+        tr`Position`,
         all.filter((q) => axes.includes(q.key)),
         (q) => q.key,
       ),
       group(
-        "Velocity",
+        tr`Velocity`,
         all.filter((q) => axes.some((a) => q.key === `${a}.speed`)),
         (q) => q.key.replace(".speed", ""),
       ),
       group(
-        "Tip",
+        tr`Tip`,
         all.filter((q) => !axes.includes(q.key.replace(".speed", ""))),
         (q) => SHORT[q.key] ?? q.key,
       ),
@@ -189,7 +207,8 @@ export class Curves {
   }
 
   private chip(quantity: Quantity, word: string): HTMLElement {
-    const { key, title, unit } = quantity;
+    const { key, unit } = quantity;
+    const title = titleOf(quantity);
     const chip = h(
       "button",
       {

@@ -1,5 +1,6 @@
 /** Go to a line of the program, or find a text in it: a row over the source that G, / and a button open. */
 
+import { tr } from "../../words/index.ts";
 import { h } from "../../dom.ts";
 
 export interface FindActions {
@@ -17,8 +18,8 @@ export class Find {
   private readonly text = h("input", {
     type: "text",
     class: "find-text",
-    placeholder: "find",
-    ariaLabel: "Find in the program",
+    placeholder: tr`find`,
+    ariaLabel: tr`Find in the program`,
     spellcheck: "false",
     autocomplete: "off",
   });
@@ -27,8 +28,8 @@ export class Find {
     class: "find-line",
     min: "1",
     step: "1",
-    placeholder: "line",
-    ariaLabel: "Go to line",
+    placeholder: tr`line`,
+    ariaLabel: tr`Go to line`,
   });
   private readonly found = h("span", { class: "muted", role: "status", dataTest: "found" });
   private readonly actions: FindActions;
@@ -37,8 +38,13 @@ export class Find {
     this.actions = actions;
     this.button = h(
       "button",
-      { class: "find-open", title: "Find (/), go to a line (G)", ariaExpanded: "false", onclick: () => this.toggle() },
-      "Find",
+      {
+        class: "find-open",
+        title: tr`Find (/), go to a line (G)`,
+        ariaExpanded: "false",
+        onclick: () => this.toggle(),
+      },
+      tr`Find`,
     );
     const step = (words: string, sign: string, by: 1 | -1): HTMLElement =>
       h("button", { type: "button", ariaLabel: words, title: words, onclick: () => this.next(by) }, sign);
@@ -46,7 +52,7 @@ export class Find {
       "form",
       { class: "row find", role: "search", hidden: true },
       this.text,
-      h("span", { class: "group" }, step("The place before", "↑", -1), step("The next place", "↓", 1)),
+      h("span", { class: "group" }, step(tr`The place before`, "↑", -1), step(tr`The next place`, "↓", 1)),
       this.line,
       this.found,
     );
@@ -88,7 +94,7 @@ export class Find {
   private next(step: 1 | -1): void {
     if (this.text.value === "") return;
     const line = this.actions.find(this.text.value, step);
-    this.found.textContent = line === null ? "not in this program" : `line ${line}`;
+    this.found.textContent = line === null ? tr`not in this program` : tr`line ${line}`;
   }
 
   private goToLine(): void {

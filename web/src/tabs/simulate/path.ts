@@ -1,5 +1,6 @@
 /** The tool path in the picture: coloured by deviation, feed or axis load; finer in a window of time. */
 
+import { tr } from "../../words/index.ts";
 import { latestOnly } from "../../api.ts";
 import { h } from "../../dom.ts";
 import { clock, clockUnit, mm } from "../../format.ts";
@@ -8,9 +9,9 @@ import type { MachineView } from "../../scene/view.ts";
 import type { Colour, PathHeader, Simulation } from "./answers.ts";
 
 const COLOURS: readonly [Colour, string, string][] = [
-  ["deviation", "deviation", "Distance of the actual tip from the nominal tip"],
-  ["feed", "feed", "Velocity of the tip along the path"],
-  ["load", "axis load", "Largest share of its velocity limit that any axis uses"],
+  ["deviation", tr`deviation`, tr`Distance of the actual tip from the nominal tip`],
+  ["feed", tr`feed`, tr`Velocity of the tip along the path`],
+  ["load", tr`axis load`, tr`Largest share of its velocity limit that any axis uses`],
 ];
 /** Enough for a picture; more are fetched for a window of time. */
 const MOST_POINTS = 200_000;
@@ -54,16 +55,16 @@ export class ToolPath {
     this.control = h(
       "div",
       { class: "scene-control" },
-      h("span", { class: "muted" }, "Path by"),
-      h("span", { class: "group", role: "group", ariaLabel: "What the colour of the path shows" }, buttons),
+      h("span", { class: "muted" }, tr`Path by`),
+      h("span", { class: "group", role: "group", ariaLabel: tr`What the colour of the path shows` }, buttons),
       h(
         "button",
         {
-          title: "Show the path as large as the picture; Fit shows the machine again",
+          title: tr`Show the path as large as the picture; Fit shows the machine again`,
           dataTest: "look-at-path",
           onclick: () => view.fitPath(),
         },
-        "Look at it",
+        tr`Look at it`,
       ),
     );
   }
@@ -145,8 +146,10 @@ export class ToolPath {
         ? undefined
         : { title: COLOURS.find(([key]) => key === colour)?.[1] ?? header.title, unit: header.unit },
     );
-    const part = window_s ? `path from ${clock(window_s[0])} to ${clock(window_s[1])}${clockUnit(window_s[1])}` : null;
-    const coarse = header.complete ? null : `path drawn within ${mm(header.chord_mm, 3)}`;
+    const part = window_s
+      ? tr`path from ${clock(window_s[0])} to ${clock(window_s[1])}${clockUnit(window_s[1])}`
+      : null;
+    const coarse = header.complete ? null : tr`path drawn within ${mm(header.chord_mm, 3)}`;
     this.view.overlay.note("path", [part, coarse].filter(Boolean).join(", ") || null);
     this.setTime(this.now_s);
   }

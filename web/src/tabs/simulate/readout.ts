@@ -1,5 +1,6 @@
 /** The present moment in numbers: block, axes, deviation in the workpiece and along the path. */
 
+import { tr } from "../../words/index.ts";
 import { fill, h } from "../../dom.ts";
 import { number, withUnit } from "../../format.ts";
 import type { Moment, SimulatedAxis } from "./answers.ts";
@@ -8,22 +9,22 @@ const DEVIATIONS: readonly [string, string, (m: Moment) => number | null | undef
   ["dev-X", "X", (m) => m.off_tip_um[0]],
   ["dev-Y", "Y", (m) => m.off_tip_um[1]],
   ["dev-Z", "Z", (m) => m.off_tip_um[2]],
-  ["dev-length", "length", (m) => Math.hypot(...m.off_tip_um)],
-  ["dev-feed", "feed", (m) => m.along_path_um?.[0]],
-  ["dev-normal", "normal", (m) => m.along_path_um?.[1]],
-  ["dev-binormal", "binorm.", (m) => m.along_path_um?.[2]],
-  ["dev-tilt", "tilt", (m) => Math.hypot(...m.off_axis_urad)],
+  ["dev-length", tr`length`, (m) => Math.hypot(...m.off_tip_um)],
+  ["dev-feed", tr`feed`, (m) => m.along_path_um?.[0]],
+  ["dev-normal", tr`normal`, (m) => m.along_path_um?.[1]],
+  ["dev-binormal", tr`binorm.`, (m) => m.along_path_um?.[2]],
+  ["dev-tilt", tr`tilt`, (m) => Math.hypot(...m.off_axis_urad)],
 ];
 
 /** What the tip does now. */
 function doing(moment: Moment): string {
-  if (moment.waits) return "waits";
+  if (moment.waits) return tr`waits`;
   const speed = withUnit(moment.speed_mm_per_min, 0, "mm/min");
-  return moment.rapid ? `rapid, ${speed}` : speed;
+  return moment.rapid ? tr`rapid, ${speed}` : speed;
 }
 
 export class Readout {
-  readonly element = h("section", { class: "panel readout", ariaLabel: "The present moment" });
+  readonly element = h("section", { class: "panel readout", ariaLabel: tr`The present moment` });
   private axes: SimulatedAxis[] = [];
   private readonly place = h("span", { class: "muted", dataTest: "place" });
   private readonly block = h("code", { class: "readout-block", dataTest: "block" });
@@ -38,10 +39,10 @@ export class Readout {
       {
         type: "button",
         dataTest: "why-here",
-        title: "What each error contributes at this block, and what slows it",
+        title: tr`What each error contributes at this block, and what slows it`,
         onclick: why,
       },
-      "Why here?",
+      tr`Why here?`,
     );
   }
 
@@ -79,7 +80,7 @@ export class Readout {
       h(
         "table",
         { class: "readout-deviation" },
-        h("caption", {}, "Deviation of the tool tip (µm) and tilt of the tool (µrad)"),
+        h("caption", {}, tr`Deviation of the tool tip (µm) and tilt of the tool (µrad)`),
         h("thead", {}, heading(DEVIATIONS.map(([, word]) => word))),
         h(
           "tbody",
@@ -99,7 +100,8 @@ export class Readout {
   }
 
   show(moment: Moment, block: string): void {
-    this.place.textContent = `${moment.line > 0 ? `line ${moment.line}` : "start"}${moment.tool === null ? "" : `, T${moment.tool}`}`;
+    const place = moment.line > 0 ? tr`line ${moment.line}` : tr`start`;
+    this.place.textContent = moment.tool === null ? place : `${place}, T${moment.tool}`;
     this.block.textContent = block;
     this.block.title = block;
     this.speed.textContent = doing(moment);

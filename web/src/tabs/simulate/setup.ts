@@ -1,5 +1,6 @@
 /** Work offset, tools, stock of a program: stated in a form, kept as `PROGRAM.setup.toml`, edited as text from then on. */
 
+import { tr } from "../../words/index.ts";
 import type { App } from "../../app.ts";
 import { fill, h } from "../../dom.ts";
 import { FileDialog, type FileForm } from "../../filedialog.ts";
@@ -29,7 +30,7 @@ export class SetUpDialog {
   private readonly saved: (path: string) => void;
 
   constructor(app: App, saved: (path: string) => void) {
-    this.dialog = new FileDialog(app, "set-up", "Set-up", "Save and simulate");
+    this.dialog = new FileDialog(app, "set-up", tr`Set-up`, tr`Save and simulate`);
     this.saved = saved;
   }
 
@@ -40,7 +41,7 @@ export class SetUpDialog {
   /** Shows the file as it is, or a form for a new one. */
   async open(of: SetUpOf): Promise<void> {
     await this.dialog.open({
-      title: ["Set-up of ", h("code", {}, of.program.replace(/^.*[\\/]/, ""))],
+      title: [tr`Set-up of `, h("code", {}, of.program.replace(/^.*[\\/]/, ""))],
       path: of.setup ?? besideOf(of.program),
       form: (text) => (text === null ? setUpForm(of) : null),
       saved: this.saved,
@@ -65,19 +66,23 @@ function setUpForm(of: SetUpOf): FileForm {
   const draw = (): void =>
     fill(
       element,
-      h("p", { class: "muted" }, "What is not known may stay empty: it counts as 0. Lengths in mm, angles in degrees."),
-      h("div", { class: "file-dialog-fields" }, choice("Control", CONTROLS, form, "control", "automatic")),
+      h(
+        "p",
+        { class: "muted" },
+        tr`What is not known may stay empty: it counts as 0. Lengths in mm, angles in degrees.`,
+      ),
+      h("div", { class: "file-dialog-fields" }, choice(tr`Control`, CONTROLS, form, "control", tr`automatic`)),
       h(
         "fieldset",
         {},
-        h("legend", {}, "Program zero: machine coordinates of the spindle gauge line there, rotary axes at 0"),
-        choice("Work offset", OFFSETS, form, "offset", ""),
-        axisFields(form.positions, "at program zero"),
+        h("legend", {}, tr`Program zero: machine coordinates of the spindle gauge line there, rotary axes at 0`),
+        choice(tr`Work offset`, OFFSETS, form, "offset", ""),
+        axisFields(form.positions, (axis) => tr`${axis} at program zero`),
       ),
       h(
         "fieldset",
         {},
-        h("legend", {}, "Tools"),
+        h("legend", {}, tr`Tools`),
         toolTable(form.tools),
         h(
           "button",
@@ -88,30 +93,35 @@ function setUpForm(of: SetUpOf): FileForm {
               draw();
             },
           },
-          "Add a tool",
+          tr`Add a tool`,
         ),
       ),
       h(
         "details",
         {},
-        h("summary", {}, "Stock, fixture, start"),
+        h("summary", {}, tr`Stock, fixture, start`),
         h(
           "fieldset",
           {},
-          h("legend", {}, "Stock: a box in the workpiece frame"),
-          triple(form.stock.edges, ["length X", "width Y", "height Z"], 0),
-          triple(form.stock.centre, ["centre X", "centre Y", "centre Z"]),
+          h("legend", {}, tr`Stock: a box in the workpiece frame`),
+          triple(form.stock.edges, [tr`length X`, tr`width Y`, tr`height Z`], 0),
+          triple(form.stock.centre, [tr`centre X`, tr`centre Y`, tr`centre Z`]),
         ),
         h(
           "fieldset",
           {},
-          h("legend", {}, "Fixture"),
+          h("legend", {}, tr`Fixture`),
           form.fixtures.map((fixture) => [
-            field("STL file beside the program", fixture.file, (v) => (fixture.file = v), "vice.stl"),
-            field("placed at x y z, mm", fixture.placement, (v) => (fixture.placement = v), "0 0 -40"),
+            field(tr`STL file beside the program`, fixture.file, (v) => (fixture.file = v), "vice.stl"),
+            field(tr`placed at x y z, mm`, fixture.placement, (v) => (fixture.placement = v), "0 0 -40"),
           ]),
         ),
-        h("fieldset", {}, h("legend", {}, "Where the axes stand before the program"), axisFields(form.start, "start")),
+        h(
+          "fieldset",
+          {},
+          h("legend", {}, tr`Where the axes stand before the program`),
+          axisFields(form.start, (axis) => tr`${axis} start`),
+        ),
       ),
     );
   draw();
@@ -168,7 +178,7 @@ function field(title: string, value: string, take: (value: string) => void, exam
   return h("label", {}, h("span", { class: "muted" }, title), input);
 }
 
-function axisFields(values: SetUpForm["positions"], of: string): HTMLElement {
+function axisFields(values: SetUpForm["positions"], title: (axis: string) => string): HTMLElement {
   return h(
     "div",
     { class: "file-dialog-fields" },
@@ -177,7 +187,7 @@ function axisFields(values: SetUpForm["positions"], of: string): HTMLElement {
         "label",
         {},
         h("span", { class: "muted" }, `${axis}, ${entry.unit}`),
-        numberInput(`${axis} ${of}`, entry.value, (value) => (entry.value = value)),
+        numberInput(title(axis), entry.value, (value) => (entry.value = value)),
       ),
     ),
   );
@@ -191,7 +201,7 @@ function triple(values: [string, string, string], titles: readonly string[], at_
       h(
         "label",
         {},
-        h("span", { class: "muted" }, `${title}, mm`),
+        h("span", { class: "muted" }, tr`${title}, mm`),
         numberInput(title, values[i] ?? "", (value) => (values[i] = value), at_least),
       ),
     ),
@@ -199,10 +209,10 @@ function triple(values: [string, string, string], titles: readonly string[], at_
 }
 
 const COLUMNS: readonly [keyof ToolForm, string, number | undefined][] = [
-  ["length", "length, mm", 0],
-  ["diameter", "diameter, mm", 0],
-  ["holder_diameter", "holder diameter, mm", 0],
-  ["holder_length", "holder length, mm", 0],
+  ["length", tr`length, mm`, 0],
+  ["diameter", tr`diameter, mm`, 0],
+  ["holder_diameter", tr`holder diameter, mm`, 0],
+  ["holder_length", tr`holder length, mm`, 0],
 ];
 
 function toolTable(tools: ToolForm[]): HTMLElement {
@@ -216,7 +226,7 @@ function toolTable(tools: ToolForm[]): HTMLElement {
         "tr",
         {},
         h("th", {}, "T"),
-        h("th", {}, "name"),
+        h("th", {}, tr`name`),
         COLUMNS.map(([, title]) => h("th", {}, title)),
       ),
     ),
@@ -228,7 +238,7 @@ function toolTable(tools: ToolForm[]): HTMLElement {
           type: "text",
           size: "14",
           value: tool.name,
-          ariaLabel: `Name of T${tool.number}`,
+          ariaLabel: tr`Name of T${tool.number}`,
           oninput: () => (tool.name = name.value),
         });
         return h(
@@ -237,7 +247,7 @@ function toolTable(tools: ToolForm[]): HTMLElement {
           h(
             "td",
             {},
-            numberInput("Number of the tool", tool.number, (value) => (tool.number = value), -1),
+            numberInput(tr`Number of the tool`, tool.number, (value) => (tool.number = value), -1),
           ),
           h("td", {}, name),
           COLUMNS.map(([key, title, at_least]) =>

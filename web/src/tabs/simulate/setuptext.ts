@@ -1,5 +1,7 @@
 /** The text of a new set-up file from what was typed in a form. */
 
+import { tr } from "../../words/index.ts";
+
 /** Empty where nothing was typed. */
 export interface SetUpForm {
   program: string;
@@ -34,8 +36,8 @@ export function wrongNumber(typed: string, at_least?: number): string | null {
   const text = plain(typed);
   if (text === "") return null;
   const value = Number(text);
-  if (!Number.isFinite(value)) return `"${typed}" is not a number`;
-  if (at_least !== undefined && value <= at_least) return `must be greater than ${at_least}`;
+  if (!Number.isFinite(value)) return tr`"${typed}" is not a number`;
+  if (at_least !== undefined && value <= at_least) return tr`must be greater than ${at_least}`;
   return null;
 }
 

@@ -1,5 +1,7 @@
 /** The source of the program: only the lines in sight are in the page, so that 10⁶ lines scroll well. */
 
+import { told } from "../../words/told.ts";
+import { severityWord, tr } from "../../words/index.ts";
 import { fill, h, perFrame, type Child } from "../../dom.ts";
 import { Lines } from "./lines.ts";
 
@@ -28,7 +30,7 @@ export class SourceList {
     class: "source-scroll",
     tabindex: "0",
     role: "listbox",
-    ariaLabel: "Source of the program. Arrow keys move the mark, Enter or a click on a line goes to it.",
+    ariaLabel: tr`Source of the program. Arrow keys move the mark, Enter or a click on a line goes to it.`,
   });
   private readonly tall = h("div", { class: "source-tall" });
   private readonly rows = h("div", { class: "source-rows" });
@@ -227,10 +229,10 @@ export class SourceList {
     if (!mark) return;
     fill(
       this.tip,
-      h("strong", { class: mark.dataset.severity ?? "" }, mark.dataset.severity),
+      h("strong", { class: mark.dataset.severity ?? "" }, severityWord(mark.dataset.severity ?? "")),
       " ",
-      mark.dataset.message,
-      mark.dataset.hint ? h("p", { class: "hint" }, mark.dataset.hint) : null,
+      told("span", {}, mark.dataset.message ?? ""),
+      mark.dataset.hint ? told("p", { class: "hint" }, mark.dataset.hint) : null,
     );
     const box = mark.getBoundingClientRect();
     const around = this.element.getBoundingClientRect();
@@ -272,7 +274,7 @@ function underlined(text: string, notes: readonly LineNote[]): Child[] {
           class: `source-mark ${note.severity === "error" ? "error" : "warning"}`,
           tabindex: "0",
           ariaDescribedby: "source-tip",
-          ariaLabel: `${text.slice(start, to)} ${note.severity}: ${note.message}`,
+          ariaLabel: `${text.slice(start, to)} ${severityWord(note.severity)}: ${note.message}`,
           dataSeverity: note.severity,
           dataMessage: note.message,
           dataHint: note.hint ?? "",

@@ -1,5 +1,7 @@
 /** What the simulation says in one glance: does it run, how long, how far off; and where the issues are. */
 
+import { told } from "../../words/told.ts";
+import { tr, trText } from "../../words/index.ts";
 import { diagnosticList } from "../../app.ts";
 import type { Diagnostic, Refusal } from "../../api.ts";
 import { fill, h, type Child } from "../../dom.ts";
@@ -26,26 +28,26 @@ function stockFacts(stock: SimulationDocument["stock"]): Child {
   return h(
     "div",
     { class: "facts" },
-    fact("material removed", cm3(stock.removed_mm3), "removed", muted(`of ${cm3(stock.before_mm3)}`)),
+    fact(tr`material removed`, cm3(stock.removed_mm3), "removed", muted(tr`of ${cm3(stock.before_mm3)}`)),
     fact(
-      "stock that remains",
+      tr`stock that remains`,
       cm3(stock.left_mm3),
       "remains",
-      muted(`± ${cm3(stock.spread_mm3)}, lines ${mm(stock.resolution_mm, 2)} apart`),
+      muted(tr`± ${cm3(stock.spread_mm3)}, lines ${mm(stock.resolution_mm, 2)} apart`),
     ),
     fact(
-      "feed in the air",
+      tr`feed in the air`,
       `${number(feed_s > 0 ? (100 * stock.air_s) / feed_s : 0, 0)} %`,
       "air",
-      muted(`${clock(stock.air_s)} of ${clock(feed_s)}`),
+      muted(tr`${clock(stock.air_s)} of ${clock(feed_s)}`),
     ),
     stock.gouged_mm3 === null
       ? null
       : fact(
-          "cut from the part",
+          tr`cut from the part`,
           cm3(stock.gouged_mm3),
           "gouged",
-          muted(`${cm3(stock.excess_mm3 ?? 0)} remain around it`),
+          muted(tr`${cm3(stock.excess_mm3 ?? 0)} remain around it`),
         ),
   );
 }
@@ -58,18 +60,19 @@ function verdict(header: SimulationHeader): HTMLElement {
   const kinds = new Map<string, number>();
   for (const mark of header.marks.filter((m) => m.grave))
     kinds.set(mark.kind, (kinds.get(mark.kind) ?? 0) + mark.stretches);
-  const words = [...kinds].map(([kind, n]) => `${n} × ${kind.replaceAll("-", " ")}`);
+  const words = [...kinds].map(([kind, n]) => `${n} × ${trText(kind.replaceAll("-", " "))}`);
   return h(
     "div",
     { class: `runs ${standing}`, role: "status", dataTest: "verdict" },
-    h("strong", {}, word),
-    ` ${sentence}`,
+    h("strong", {}, trText(word)),
+    " ",
+    told("span", {}, sentence),
     words.length > 0 ? h("span", { class: "muted" }, ` (${words.join(", ")})`) : null,
   );
 }
 
 export class Summary {
-  readonly element = h("section", { class: "panel simulate-summary", ariaLabel: "Result" });
+  readonly element = h("section", { class: "panel simulate-summary", ariaLabel: tr`Result` });
   private readonly seek: (time_s: number) => void;
   private readonly state: () => void;
 
@@ -92,10 +95,10 @@ export class Summary {
         ? h(
             "button",
             { class: "link", dataTest: "to-largest", onclick: () => this.seek(worst.time_s) },
-            `line ${worst.line}`,
+            tr`line ${worst.line}`,
           )
         : errors === 0
-          ? h("span", { class: "muted" }, "the machine file states no errors")
+          ? h("span", { class: "muted" }, tr`the machine file states no errors`)
           : null;
     fill(
       this.element,
@@ -106,27 +109,29 @@ export class Summary {
         "div",
         { class: "facts" },
         fact(
-          "machining time",
+          tr`machining time`,
           [clock(doc.time_s), h("small", {}, clockUnit(doc.time_s))],
           "time",
           h(
             "span",
             { class: "muted" },
-            `rapid ${clock(doc.rapid_s)}${doc.dwell_s > 0 ? `, dwell ${clock(doc.dwell_s)}` : ""}`,
+            doc.dwell_s > 0
+              ? tr`rapid ${clock(doc.rapid_s)}, dwell ${clock(doc.dwell_s)}`
+              : tr`rapid ${clock(doc.rapid_s)}`,
           ),
         ),
-        fact("largest deviation", um(worst.value), "largest", to),
+        fact(tr`largest deviation`, um(worst.value), "largest", to),
         fact(
-          "across the path",
+          tr`across the path`,
           um(across(doc)),
           "across",
-          h("span", { class: "muted" }, `rms ${um(doc.deviation.tip_rms_um)}`),
+          h("span", { class: "muted" }, tr`rms ${um(doc.deviation.tip_rms_um)}`),
         ),
         fact(
-          "tilt of the tool",
+          tr`tilt of the tool`,
           urad(doc.deviation.axis_urad.value),
           "tilt",
-          h("span", { class: "muted" }, `${mm(doc.feed_mm, 0)} in feed`),
+          h("span", { class: "muted" }, tr`${mm(doc.feed_mm, 0)} in feed`),
         ),
       ),
       stockFacts(doc.stock),
@@ -138,7 +143,9 @@ export class Summary {
             h(
               "summary",
               {},
-              `The program reader says ${header.diagnostics.length === 1 ? "one thing" : `${header.diagnostics.length} things`}`,
+              header.diagnostics.length === 1
+                ? tr`The program reader says one thing`
+                : tr`The program reader says ${header.diagnostics.length} things`,
             ),
             diagnosticList(header.diagnostics.slice(0, MOST_ROWS)),
           )
@@ -157,9 +164,11 @@ export class Summary {
         h(
           "strong",
           { class: "runs bad", dataTest: "verdict" },
-          errors.length > 0
-            ? `Cannot be simulated: ${errors.length === 1 ? "one error" : `${errors.length} errors`}`
-            : refusal.message,
+          errors.length === 0
+            ? refusal.message
+            : errors.length === 1
+              ? tr`Cannot be simulated: one error`
+              : tr`Cannot be simulated: ${errors.length} errors`,
         ),
       ),
       refusal.diagnostics.length > 0
@@ -171,8 +180,8 @@ export class Summary {
         ? h(
             "p",
             { class: "row" },
-            h("button", { dataTest: "keep-going", onclick: again }, "Simulate all the same"),
-            h("span", { class: "muted" }, "continues after each error"),
+            h("button", { dataTest: "keep-going", onclick: again }, tr`Simulate all the same`),
+            h("span", { class: "muted" }, tr`continues after each error`),
           )
         : null,
     );
@@ -182,8 +191,8 @@ export class Summary {
     return h(
       "div",
       { class: "no-set-up", role: "alert", dataTest: "no-set-up" },
-      h("span", {}, "No set-up: work offsets and tool lengths count as 0."),
-      h("button", { class: "primary", onclick: () => this.state() }, "State the set-up …"),
+      h("span", {}, tr`No set-up: work offsets and tool lengths count as 0.`),
+      h("button", { class: "primary", onclick: () => this.state() }, tr`State the set-up …`),
     );
   }
 
@@ -206,7 +215,7 @@ export class Summary {
     return h(
       "details",
       { class: "simulate-said" },
-      h("summary", {}, found(rest) === 1 ? "One remark" : `${found(rest)} remarks`),
+      h("summary", {}, found(rest) === 1 ? tr`One remark` : tr`${found(rest)} remarks`),
       h(
         "ul",
         { class: "issues" },
@@ -217,16 +226,22 @@ export class Summary {
   }
 
   private issue(mark: Mark): HTMLElement {
-    const until = mark.until_s !== null && mark.until_s > mark.time_s ? ` to ${clock(mark.until_s)}` : "";
+    const { time_s, until_s } = mark;
+    const when = until_s !== null && until_s > time_s ? tr`${clock(time_s)} to ${clock(until_s)}` : clock(time_s);
     return h(
       "li",
       {},
       h(
         "button",
-        { class: "issue", dataKind: mark.kind, onclick: () => this.seek(mark.time_s) },
-        h("span", { class: "muted number" }, `${clock(mark.time_s)}${until}`),
-        h("span", { class: "muted number" }, `line ${mark.line}`),
-        h("span", {}, mark.stretches > 1 ? `${mark.text} (${mark.stretches} stretches, the worst of them)` : mark.text),
+        { class: "issue", dataKind: mark.kind, onclick: () => this.seek(time_s) },
+        h("span", { class: "muted number" }, when),
+        h("span", { class: "muted number" }, tr`line ${mark.line}`),
+        h(
+          "span",
+          {},
+          told("span", {}, mark.text),
+          mark.stretches > 1 ? tr` (${mark.stretches} stretches, the worst of them)` : null,
+        ),
       ),
     );
   }
@@ -238,5 +253,5 @@ const found = (marks: readonly Mark[]): number => marks.reduce((sum, mark) => su
 /** What the list does not show. */
 function more(marks: readonly Mark[]): Child {
   const rest = found(marks.slice(MOST_ROWS));
-  return rest > 0 ? h("p", { class: "muted" }, `and ${rest} more of these: the time line has all of them`) : null;
+  return rest > 0 ? h("p", { class: "muted" }, tr`and ${rest} more of these: the time line has all of them`) : null;
 }

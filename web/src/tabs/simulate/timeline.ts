@@ -1,5 +1,6 @@
 /** The time line: drag to scrub, marks of collisions, over-travel and other issues jump there. */
 
+import { tr, trText } from "../../words/index.ts";
 import { fill, h } from "../../dom.ts";
 import { clock, clockUnit, duration } from "../../format.ts";
 import type { Mark } from "./answers.ts";
@@ -14,7 +15,7 @@ interface Cluster {
 
 export class Timeline {
   readonly element: HTMLElement;
-  /** For the mouse; the list of issues and the keys n and p lead to the same places. */
+  /** For the mouse; the list of issues and the keys N and Shift+N lead to the same places. */
   private readonly marks = h("div", { class: "timeline-marks", ariaHidden: "true" });
   private readonly spans = h("div", { class: "timeline-spans" });
   private readonly window_part = h("div", { class: "timeline-window", hidden: true });
@@ -24,7 +25,7 @@ export class Timeline {
     class: "timeline-track",
     role: "slider",
     tabindex: "0",
-    ariaLabel: "Time in the program",
+    ariaLabel: tr`Time in the program`,
     ariaValuemin: "0",
     ariaValuemax: "0",
     ariaValuenow: "0",
@@ -58,7 +59,7 @@ export class Timeline {
     const share = this.share(time_s);
     this.done.style.width = this.thumb.style.left = share;
     this.track.setAttribute("aria-valuenow", String(time_s));
-    this.track.setAttribute("aria-valuetext", `${duration(time_s)} of ${duration(this.duration_s)}`);
+    this.track.setAttribute("aria-valuetext", tr`${duration(time_s)} of ${duration(this.duration_s)}`);
   }
 
   /** The part of the time that the plots show. */
@@ -77,8 +78,8 @@ export class Timeline {
     const first = marks[0] as Mark;
     const words =
       marks.length === 1
-        ? `${first.text}, line ${first.line}, ${clock(first.time_s)}${clockUnit(first.time_s)}`
-        : `${marks.length} places from ${clock(first.time_s)}${clockUnit(first.time_s)}, the first in line ${first.line}: ${first.text}`;
+        ? tr`${trText(first.text)}, line ${first.line}, ${clock(first.time_s)}${clockUnit(first.time_s)}`
+        : tr`${marks.length} places from ${clock(first.time_s)}${clockUnit(first.time_s)}, the first in line ${first.line}: ${trText(first.text)}`;
     const button = h("span", {
       class: `timeline-mark ${critical ? "critical" : ""}`,
       dataKind: first.kind,

@@ -1,5 +1,6 @@
 /** The tool of the present moment, as it is drawn. */
 
+import { tr } from "../../words/index.ts";
 import { Matrix4, Vector3 } from "three";
 import type { MachineDescription, ToolShape } from "../../api.ts";
 import { matrixOf } from "../../scene/shapes.ts";
@@ -32,7 +33,7 @@ export function toolOf(
 export function toolNote(machine: MachineDescription, tools: readonly SetUpTool[], moment: Moment): string | null {
   const stated = tools.find((tool) => tool.tool === moment.tool);
   if (stated ? stated.segments_mm.length > 0 : machine.tool?.diameter_mm != null) return null;
-  return `${moment.tool === null ? "tool" : `T${moment.tool}`} of unknown diameter`;
+  return moment.tool === null ? tr`tool of unknown diameter` : tr`T${moment.tool} of unknown diameter`;
 }
 
 /** The tip, given in the workpiece frame, carried into the body of the tool by the poses of this moment. */

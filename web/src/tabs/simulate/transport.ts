@@ -1,5 +1,6 @@
 /** Play, pause, step, how fast, and the keys for it. */
 
+import { tr } from "../../words/index.ts";
 import { h, s } from "../../dom.ts";
 import { clock, clockUnit } from "../../format.ts";
 import { tabKey } from "../../keys.ts";
@@ -13,14 +14,15 @@ const PREVIOUS = "M13 3 L7 8 L13 13 Z M4 3 H6 V13 H4 Z";
 const END = "M2 3 L7 8 L2 13 Z M7 3 L12 8 L7 13 Z M12 3 H14 V13 H12 Z";
 const HOME = "M14 3 L9 8 L14 13 Z M9 3 L4 8 L9 13 Z M2 3 H4 V13 H2 Z";
 
-function button(title: string, key: string, path: string, act: () => void): HTMLButtonElement {
+/** `name`: for tests; `key`: does the same. */
+function button(name: string, [title, key]: [string, string], path: string, act: () => void): HTMLButtonElement {
   return h(
     "button",
     {
       class: "transport-button",
       title: `${title} (${key})`,
       ariaLabel: title,
-      dataAct: title.toLowerCase(),
+      dataAct: name,
       onclick: act,
     },
     s(
@@ -40,30 +42,30 @@ export class Transport {
 
   constructor(player: Player) {
     this.player = player;
-    this.play_button = button("Play", "space", PLAY, () => player.toggle());
+    this.play_button = button("play", [tr`Play`, tr`space`], PLAY, () => player.toggle());
     const speed = h(
       "select",
       {
-        ariaLabel: "Speed",
+        ariaLabel: tr`Speed`,
         dataTest: "factor",
         onchange: () => player.setFactor(speed.value === "all" ? NO_WAITING : Number(speed.value)),
       },
-      FACTORS.map((k) => h("option", { value: k }, k === 1 ? "×1 true time" : `×${k}`)),
-      h("option", { value: "all" }, "as fast as it can"),
+      FACTORS.map((k) => h("option", { value: k }, k === 1 ? tr`×1 true time` : `×${k}`)),
+      h("option", { value: "all" }, tr`as fast as it can`),
     );
     speed.value = "1";
-    speed.title = "How fast the time runs; as fast as it can: every block once, without waiting";
+    speed.title = tr`How fast the time runs; as fast as it can: every block once, without waiting`;
     this.element = h(
       "div",
       { class: "transport" },
       h(
         "div",
-        { class: "group", role: "group", ariaLabel: "Run through the program" },
-        button("To the start", "Home", HOME, () => player.seek(0)),
-        button("Block back", "←", PREVIOUS, () => player.stepBlock("previous")),
+        { class: "group", role: "group", ariaLabel: tr`Run through the program` },
+        button("to the start", [tr`To the start`, tr`Home`], HOME, () => player.seek(0)),
+        button("block back", [tr`Block back`, "←"], PREVIOUS, () => player.stepBlock("previous")),
         this.play_button,
-        button("Block on", "→", NEXT, () => player.stepBlock("next")),
-        button("To the end", "End", END, () => player.seek(player.duration_s)),
+        button("block on", [tr`Block on`, "→"], NEXT, () => player.stepBlock("next")),
+        button("to the end", [tr`To the end`, tr`End`], END, () => player.seek(player.duration_s)),
       ),
       speed,
       h("span", { class: "transport-time" }, this.clock_text, this.total),
@@ -76,8 +78,9 @@ export class Transport {
   }
 
   setPlaying(playing: boolean): void {
-    this.play_button.ariaLabel = playing ? "Pause" : "Play";
-    this.play_button.title = playing ? "Pause (space)" : "Play (space)";
+    const title = playing ? tr`Pause` : tr`Play`;
+    this.play_button.ariaLabel = title;
+    this.play_button.title = `${title} (${tr`space`})`;
     this.play_button.querySelector("path")?.setAttribute("d", playing ? PAUSE : PLAY);
   }
 

@@ -1,5 +1,7 @@
 /** Why the tool is off at a block: how long it takes, what slowed it, and what each error contributes. */
 
+import { told } from "../../words/told.ts";
+import { tr } from "../../words/index.ts";
 import type { App } from "../../app.ts";
 import type { Answer, Request } from "../../api.ts";
 import { fill, h, type Child } from "../../dom.ts";
@@ -14,7 +16,7 @@ type Traced = Answer<"trace">;
 const SMALL = 0.02;
 
 export class WhyHere {
-  readonly element = h("section", { class: "panel why-here", ariaLabel: "Why here", hidden: true });
+  readonly element = h("section", { class: "panel why-here", ariaLabel: tr`Why here`, hidden: true });
   private readonly app: App;
   private stop = new AbortController();
 
@@ -33,7 +35,7 @@ export class WhyHere {
     this.clear();
     const stop = new AbortController();
     this.stop = stop;
-    const progress = this.app.progress(`line ${line} through every stage`);
+    const progress = this.app.progress(tr`line ${line} through every stage`);
     try {
       const found = await this.app.api.ask("trace", { ...asked, line }, { signal: stop.signal });
       if (stop.signal.aborted) return;
@@ -54,8 +56,8 @@ export class WhyHere {
       h(
         "div",
         { class: "panel-head" },
-        h("h2", {}, `Why here? Line ${line}`),
-        h("button", { type: "button", onclick: () => this.clear() }, "Close"),
+        h("h2", {}, tr`Why here? Line ${line}`),
+        h("button", { type: "button", onclick: () => this.clear() }, tr`Close`),
       ),
       h("code", { class: "readout-block", title: text }, text),
       facts(found),
@@ -63,31 +65,31 @@ export class WhyHere {
         ? h(
             "p",
             {},
-            `${clock(time.from_s)} to ${clock(time.to_s)}, ${withUnit(time.speed_mm_per_min, 0, "mm/min")} at its end`,
-            during.length === 0 ? "; nothing slowed it." : ":",
+            tr`${clock(time.from_s)} to ${clock(time.to_s)}, ${withUnit(time.speed_mm_per_min, 0, "mm/min")} at its end`,
+            during.length === 0 ? tr`; nothing slowed it.` : ":",
           )
-        : h("p", {}, "It moves nothing."),
+        : h("p", {}, tr`It moves nothing.`),
       during.length > 0
         ? h(
             "ul",
             {},
-            during.map((m) => h("li", { class: m.grave ? "bad" : null }, m.text)),
+            during.map((m) => told("li", { class: m.grave ? "bad" : null }, m.text)),
           )
         : null,
       deviation
         ? h(
             "p",
             { dataTest: "why-deviation" },
-            `At its end the tip is off by ${um(Math.hypot(...deviation.tip_um))}`,
+            tr`At its end the tip is off by ${um(Math.hypot(...deviation.tip_um))}`,
             deviation.normal_um === null || deviation.normal_um === undefined
               ? "."
-              : `: ${um(deviation.feed_um ?? 0)} along the feed, ${um(deviation.normal_um)} along the normal, ${um(deviation.binormal_um ?? 0)} along the binormal.`,
+              : tr`: ${um(deviation.feed_um ?? 0)} along the feed, ${um(deviation.normal_um)} along the normal, ${um(deviation.binormal_um ?? 0)} along the binormal.`,
           )
         : null,
       budget && budget.length > 0
         ? shares(budget)
         : deviation
-          ? h("p", {}, "The machine file states no errors.")
+          ? h("p", {}, tr`The machine file states no errors.`)
           : null,
     );
     this.element.scrollIntoView({ block: "nearest" });
@@ -96,14 +98,24 @@ export class WhyHere {
 
 function facts({ executions, programmed }: Traced): Child {
   if (!programmed) return null;
-  const words = [
+  // What the block does besides is in the words of the server.
+  const words: Child[] = [
     `T${programmed.tool}`,
-    programmed.tool_centre ? "tool-centre point on" : "tool-centre point off",
-    programmed.tilted_plane ? "tilted plane" : null,
-    ...programmed.events,
-    executions === 1 ? null : `runs ${executions} times: the first is shown`,
+    programmed.tool_centre ? tr`tool-centre point on` : tr`tool-centre point off`,
+    programmed.tilted_plane ? tr`tilted plane` : null,
+    ...programmed.events.map(event),
+    executions === 1 ? null : tr`runs ${executions} times: the first is shown`,
   ];
-  return h("p", { class: "muted" }, words.filter(Boolean).join("; "));
+  const said = words.filter(Boolean);
+  return h(
+    "p",
+    { class: "muted" },
+    said.map((word, i) => (i === 0 ? word : ["; ", word])),
+  );
+}
+
+function event(text: string): Child {
+  return told("span", {}, text);
 }
 
 /** What each error contributes, the largest first, with a bar. */
@@ -124,7 +136,12 @@ function shares(budget: NonNullable<Traced["budget"]>): HTMLElement {
       h(
         "td",
         { class: "why-bar" },
-        h("meter", { min: "0", max: String(largest || 1), value: share.length, ariaLabel: `share of ${share.error}` }),
+        h("meter", {
+          min: "0",
+          max: String(largest || 1),
+          value: share.length,
+          ariaLabel: tr`share of ${share.error}`,
+        }),
       ),
     );
   return h(
@@ -133,20 +150,20 @@ function shares(budget: NonNullable<Traced["budget"]>): HTMLElement {
     h(
       "table",
       {},
-      h("caption", {}, "What each error contributes to the tip at the end of the block (µm)"),
+      h("caption", {}, tr`What each error contributes to the tip at the end of the block (µm)`),
       h(
         "thead",
         {},
         h(
           "tr",
           {},
-          h("th", { scope: "col" }, "error"),
-          ["X", "Y", "Z", "length"].map((word) => h("th", { scope: "col", class: "number" }, word)),
+          h("th", { scope: "col" }, tr`error`),
+          ["X", "Y", "Z", tr`length`].map((word) => h("th", { scope: "col", class: "number" }, word)),
           h("td", {}),
         ),
       ),
       h("tbody", {}, shown.map(row)),
     ),
-    rest > 0 ? h("p", { class: "muted" }, `and ${rest} of less than ${100 * SMALL} % of the largest`) : null,
+    rest > 0 ? h("p", { class: "muted" }, tr`and ${rest} of less than ${100 * SMALL} % of the largest`) : null,
   );
 }

@@ -1,5 +1,6 @@
 /** What the columns of a table are: chosen for each, with its first values in sight. */
 
+import { tr, trText } from "../../words/index.ts";
 import type { ServeReadingsColumns, StandardEntry } from "../../../types.d.ts";
 import type { App } from "../../app.ts";
 import { fill, h } from "../../dom.ts";
@@ -18,16 +19,16 @@ export interface ReadingsOf {
 }
 
 const SEPARATORS: readonly [string, string][] = [
-  [";", "semicolons"],
-  [",", "commas"],
-  ["\t", "tabs"],
-  ["|", "bars"],
-  [" ", "spaces"],
+  [";", tr`semicolons`],
+  [",", tr`commas`],
+  ["\t", tr`tabs`],
+  ["|", tr`bars`],
+  [" ", tr`spaces`],
 ];
 const DECIMALS: readonly [string, string][] = [
-  ["", "as the numbers show"],
-  [".", "point: 1.5"],
-  [",", "comma: 1,5"],
+  ["", tr`as the numbers show`],
+  [".", tr`point: 1.5`],
+  [",", tr`comma: 1,5`],
 ];
 const ALL_UNITS = [
   "mm",
@@ -158,7 +159,7 @@ export class ColumnsForm implements FileForm {
       // Only the last choice counts.
       if (asked !== this.asked) return;
       if (answer.table) this.take(answer.table);
-      else this.say("No two columns are found that way.");
+      else this.say(tr`No two columns are found that way.`);
     } catch (error) {
       this.app.fail(error);
     }
@@ -177,18 +178,18 @@ export class ColumnsForm implements FileForm {
   private draw(): void {
     const { table } = this;
     const separator = select(
-      "Separator of the columns",
+      tr`Separator of the columns`,
       SEPARATORS,
       table.separator,
       (value) => void this.again(value, this.heading),
     );
-    const decimal = select("Decimal sign", DECIMALS, this.decimal, (value) => (this.decimal = value));
+    const decimal = select(tr`Decimal sign`, DECIMALS, this.decimal, (value) => (this.decimal = value));
     const heading = h("input", {
       type: "number",
       min: "0",
       size: "5",
       value: String(table.heading_line ?? 0),
-      ariaLabel: "Line of the headings; 0 where there are none",
+      ariaLabel: tr`Line of the headings; 0 where there are none`,
       onchange: () => {
         this.heading = Number(heading.value);
         void this.again(table.separator, this.heading);
@@ -200,14 +201,14 @@ export class ColumnsForm implements FileForm {
       size: "4",
       value: String(table.rows_below_headings),
       dataField: "below",
-      ariaLabel: "Rows between the headings and the first reading",
+      ariaLabel: tr`Rows between the headings and the first reading`,
       oninput: () => (this.table = { ...this.table, rows_below_headings: Math.max(0, Number(below.value) || 0) }),
     });
     const until = h("input", {
       type: "text",
       value: this.until,
-      placeholder: "nothing: all lines",
-      ariaLabel: "Beginning of the line after the last reading",
+      placeholder: tr`nothing: all lines`,
+      ariaLabel: tr`Beginning of the line after the last reading`,
       oninput: () => (this.until = until.value),
     });
     fill(
@@ -215,27 +216,27 @@ export class ColumnsForm implements FileForm {
       h(
         "div",
         { class: "file-dialog-fields" },
-        labelled("Between columns", separator),
-        labelled("Decimal sign", decimal),
-        labelled("Headings in line (0: none)", heading),
-        labelled("Rows between headings and readings", below),
-        labelled("Readings end before the line that begins with", until),
+        labelled(tr`Between columns`, separator),
+        labelled(tr`Decimal sign`, decimal),
+        labelled(tr`Headings in line (0: none)`, heading),
+        labelled(tr`Rows between headings and readings`, below),
+        labelled(tr`Readings end before the line that begins with`, until),
       ),
-      h("p", { class: "muted" }, `${table.readings} rows of readings below line ${table.first_line}.`),
+      h("p", { class: "muted" }, tr`${table.readings} rows of readings below line ${table.first_line}.`),
       h(
         "div",
-        { class: "columns-table", tabindex: "0", role: "group", ariaLabel: "Columns of the file" },
+        { class: "columns-table", tabindex: "0", role: "group", ariaLabel: tr`Columns of the file` },
         h(
           "table",
           {},
-          h("caption", { class: "visually-hidden" }, "Columns of the file"),
+          h("caption", { class: "visually-hidden" }, tr`Columns of the file`),
           h(
             "thead",
             {},
             h(
               "tr",
               {},
-              ["column", "first values", "is", "unit", "sign", "words"].map((t) => h("th", {}, t)),
+              [tr`column`, tr`first values`, tr`is`, tr`unit`, tr`sign`, tr`words`].map((t) => h("th", {}, t)),
             ),
           ),
           h(
@@ -251,7 +252,7 @@ export class ColumnsForm implements FileForm {
   }
 
   private row(choice: Choice, at: number): HTMLElement {
-    const name = choice.heading || `column ${at + 1}`;
+    const name = choice.heading || tr`column ${at + 1}`;
     const rest = h("td", {});
     const sign = h("td", {});
     const words = h("td", {});
@@ -261,7 +262,7 @@ export class ColumnsForm implements FileForm {
         rest,
         usual.length > 0
           ? select(
-              `Unit of ${name}`,
+              tr`Unit of ${name}`,
               [["", "?"], ...[...new Set([...usual, ...ALL_UNITS])].map((u): [string, string] => [u, u])],
               choice.unit,
               (value) => {
@@ -275,8 +276,8 @@ export class ColumnsForm implements FileForm {
       fill(words, this.hasWords(choice.role) ? this.wordsOf(choice, name) : null);
     };
     const role = select(
-      `What ${name} is`,
-      [["", "not used"], ...this.known.map((column): [string, string] => [column.name, column.title])],
+      tr`What ${name} is`,
+      [["", tr`not used`], ...this.known.map((column): [string, string] => [column.name, trText(column.title)])],
       choice.role,
       (value) => {
         choice.role = value;
@@ -301,10 +302,10 @@ export class ColumnsForm implements FileForm {
     const box = h("input", {
       type: "checkbox",
       checked: choice.negate,
-      ariaLabel: `Change the sign of ${name}`,
+      ariaLabel: tr`Change the sign of ${name}`,
       onchange: () => (choice.negate = box.checked),
     });
-    return h("label", { title: "The file counts the other way: change the sign" }, box, " change");
+    return h("label", { title: tr`The file counts the other way: change the sign` }, box, tr` change`);
   }
 
   private wordsOf(choice: Choice, name: string): HTMLElement {
@@ -318,7 +319,7 @@ export class ColumnsForm implements FileForm {
           {},
           `${pair[0]} = `,
           select(
-            `Meaning of ${pair[0]} in ${name}`,
+            tr`Meaning of ${pair[0]} in ${name}`,
             [["", "?"], ...ours.map((o): [string, string] => [o, o])],
             pair[1],
             (v) => {

@@ -1,5 +1,6 @@
 /** A dropped file of readings as files of the project, with what was stated of it. */
 
+import { tr } from "../../words/index.ts";
 import type { App } from "../../app.ts";
 import { Refusal } from "../../api.ts";
 import { FileDialog, type FileForm } from "../../filedialog.ts";
@@ -12,7 +13,7 @@ export function keepInProject(
   readings: TextFile,
   stated: { mapping: string | null; stated: string | null },
 ): Promise<string | null> {
-  const dialog = new FileDialog(app, "keep", "Save the readings in the project", "Save");
+  const dialog = new FileDialog(app, "keep", tr`Save the readings in the project`, tr`Save`);
   const plain = readings.name.replace(/\.[^.]*$/, "").replace(/[^\p{L}\p{N}._-]+/gu, "-");
   let path = `${plain || "readings"}.csv`;
   const form: FileForm = {
@@ -22,7 +23,7 @@ export function keepInProject(
       h(
         "label",
         {},
-        h("span", { class: "muted" }, "Name of the file, below the project folder"),
+        h("span", { class: "muted" }, tr`Name of the file, below the project folder`),
         nameBox(path, (typed) => (path = typed)),
       ),
     ),
@@ -37,19 +38,23 @@ export function keepInProject(
       resolve(done);
     });
     void dialog.open({
-      title: "Save the readings in the project",
+      title: tr`Save the readings in the project`,
       path,
       form: () => form,
       kept: {
         text: null,
-        where: "with the columns and conditions that were stated; nothing is replaced",
+        where: tr`with the columns and conditions that were stated; nothing is replaced`,
         keep: async () => {
           const beside = path.replace(/\.csv$/i, "");
           // All or nothing: a file of this name beside the readings would count for them.
           for (const ending of [".csv", ".map.toml", ".toml"]) {
             const name = ending === ".csv" ? path : `${beside}${ending}`;
             if (await isThere(app, name))
-              throw new Refusal("conflict", `${name} is there already`, "save under another name: nothing is replaced");
+              throw new Refusal(
+                "conflict",
+                tr`${name} is there already`,
+                tr`save under another name: nothing is replaced`,
+              );
           }
           // The readings are saved as UTF-8, whatever they were.
           const mapping = stated.mapping?.replace(/^encoding\s*=.*$/m, "") ?? null;
@@ -85,7 +90,7 @@ function nameBox(value: string, take: (typed: string) => void): HTMLInputElement
     oninput: () => {
       const isCsv = /\.csv$/i.test(box.value.trim());
       if (isCsv) delete box.dataset.wrong;
-      else box.dataset.wrong = "the name ends in .csv";
+      else box.dataset.wrong = tr`the name ends in .csv`;
       take(box.value.trim());
     },
   });

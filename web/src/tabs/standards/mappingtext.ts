@@ -1,5 +1,6 @@
 /** The text of a mapping file from what was chosen for each column: docs/reference/evaluation.md. */
 
+import { tr } from "../../words/index.ts";
 import { quoted } from "../../toml.ts";
 
 export interface MappedColumn {
@@ -42,11 +43,11 @@ export function roles(columns: readonly MappedColumn[], numbered: readonly strin
 /** What is wrong with the choice; null if nothing is. */
 export function wrongColumns(columns: readonly MappedColumn[], names: readonly string[]): string | null {
   const used = names.filter((name) => name !== "");
-  if (used.length < 2) return "State the meaning of at least two columns.";
+  if (used.length < 2) return tr`State the meaning of at least two columns.`;
   const twice = used.find((name, i) => used.indexOf(name) !== i);
-  if (twice) return `Two columns are "${twice}": leave one of them.`;
+  if (twice) return tr`Two columns are "${twice}": leave one of them.`;
   const bare = columns.find((column) => column.role !== "" && column.unit === "?");
-  return bare ? `The unit of "${bare.heading || bare.role}" is not stated.` : null;
+  return bare ? tr`The unit of "${bare.heading || bare.role}" is not stated.` : null;
 }
 
 /** A heading names its column where it is the only one of this name. */

@@ -1,5 +1,6 @@
 /** The charts of the standards, from what the server says is in them. */
 
+import { tr, trText } from "../../words/index.ts";
 import type { PictureEntry } from "../../../types.d.ts";
 import {
   lineChart,
@@ -12,6 +13,7 @@ import {
 } from "../../figure/index.ts";
 import { h } from "../../dom.ts";
 import type { Frame } from "../../frame.ts";
+import { told } from "./told.ts";
 
 type Slice = [first: number, count: number];
 
@@ -36,8 +38,8 @@ function column(from: Float64Array, [first, count]: Slice, width: number, j: num
 
 /** "target, mm" -> label and unit; a lone unit stays as it is. */
 function axisOf(text: string): { label: string; unit?: string } {
-  const at = text.lastIndexOf(", ");
-  return at < 0 ? { label: text } : { label: text.slice(0, at), unit: text.slice(at + 2) };
+  const [, label, unit] = /^(.*)(?:, |，)(.*)$/.exec(trText(text)) ?? [];
+  return label === undefined || unit === undefined ? { label: text } : { label, unit };
 }
 
 function seriesOf(picture: ScatterPicture, { line, points }: Arrays): Series[] {
@@ -46,7 +48,7 @@ function seriesOf(picture: ScatterPicture, { line, points }: Arrays): Series[] {
     const colour = colourOf(band.colour);
     const half = column(line, band.line, 3, 2);
     series.push({
-      name: band.label,
+      name: told(band.label),
       colour,
       x: column(line, band.line, 3, 0),
       y: column(line, band.line, 3, 1),
@@ -54,7 +56,7 @@ function seriesOf(picture: ScatterPicture, { line, points }: Arrays): Series[] {
     });
     if (band.points[1] > 0)
       series.push({
-        name: `${band.label}, readings`,
+        name: tr`${told(band.label)}, readings`,
         quiet: true,
         colour,
         line: false,
@@ -65,7 +67,7 @@ function seriesOf(picture: ScatterPicture, { line, points }: Arrays): Series[] {
   }
   if (picture.dashed[1] > 0)
     series.push({
-      name: "mean of both",
+      name: tr`mean of both`,
       colour: "var(--ink)",
       dash: "5 4",
       x: column(points, picture.dashed, 2, 0),
@@ -77,7 +79,7 @@ function seriesOf(picture: ScatterPicture, { line, points }: Arrays): Series[] {
 function chartSpec(picture: ScatterPicture, arrays: Arrays): ChartSpec {
   const series = seriesOf(picture, arrays);
   const spec: ChartSpec = {
-    title: picture.title,
+    title: told(picture.title),
     x: { ...axisOf(picture.x), digits: 1 },
     y: axisOf(picture.y),
     series,
@@ -99,12 +101,12 @@ function polarSpec(
   circle: { radius_mm?: number; axes?: [string, string] },
 ): PolarSpec {
   return {
-    title: picture.title,
+    title: told(picture.title),
     unit: "µm",
     height: 560,
     ...circle,
     series: picture.lines.map((one) => ({
-      name: one.label,
+      name: told(one.label),
       colour: colourOf(one.colour),
       angle_rad: column(points, one.points, 2, 0),
       deviation: column(points, one.points, 2, 1),
@@ -127,7 +129,7 @@ export function drawPictures(
       picture.kind === "polar"
         ? polar(panel, polarSpec(picture, arrays, circle))
         : lineChart(panel, chartSpec(picture, arrays));
-    if (picture.note) panel.append(h("p", { class: "muted note" }, picture.note));
+    if (picture.note) panel.append(h("p", { class: "muted note" }, told(picture.note)));
     return drawn as Figure<never>;
   });
 }

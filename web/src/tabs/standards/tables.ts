@@ -1,5 +1,6 @@
 /** Result tables of every standard: symbols, what they mean, values, uncertainties. */
 
+import { tr, trText } from "../../words/index.ts";
 import type { ServeEvaluate } from "../../../types.d.ts";
 import type { Cell, Sheet } from "../measure/table.ts";
 import {
@@ -12,6 +13,7 @@ import {
   type Positioning,
   type Rotation,
 } from "./documents.ts";
+import { told } from "./told.ts";
 
 type ReportTable = ServeEvaluate["figures"][number];
 
@@ -23,25 +25,30 @@ const FIGURES: readonly [string, string, string, string][] = [
   [
     "A",
     "A",
-    "bidirectional accuracy of positioning",
-    "what to expect of a commanded position from either side: means ± 2s",
+    tr`bidirectional accuracy of positioning`,
+    tr`what to expect of a commanded position from either side: means ± 2s`,
   ],
-  ["A_up", "A↑", "accuracy, rising", "the same, approached from below only"],
-  ["A_down", "A↓", "accuracy, falling", "the same, approached from above only"],
-  ["R", "R", "bidirectional repeatability", "widest scatter at one target, with its reversal"],
-  ["R_up", "R↑", "repeatability, rising", "widest 4s at one target, from below"],
-  ["R_down", "R↓", "repeatability, falling", "widest 4s at one target, from above"],
+  ["A_up", "A↑", tr`accuracy, rising`, tr`the same, approached from below only`],
+  ["A_down", "A↓", tr`accuracy, falling`, tr`the same, approached from above only`],
+  ["R", "R", tr`bidirectional repeatability`, tr`widest scatter at one target, with its reversal`],
+  ["R_up", "R↑", tr`repeatability, rising`, tr`widest 4s at one target, from below`],
+  ["R_down", "R↓", tr`repeatability, falling`, tr`widest 4s at one target, from above`],
   [
     "E",
     "E",
-    "bidirectional systematic error",
-    "range of the means: what a table of compensation can take away, with B",
+    tr`bidirectional systematic error`,
+    tr`range of the means: what a table of compensation can take away, with B`,
   ],
-  ["E_up", "E↑", "systematic error, rising", "range of the means from below"],
-  ["E_down", "E↓", "systematic error, falling", "range of the means from above"],
-  ["M", "M", "mean bidirectional error", "range of the mean of both directions: what a one-way table can take away"],
-  ["B", "B", "reversal error", "largest lost motion at any target"],
-  ["B_mean", "B̄", "mean reversal error", "mean lost motion, rising minus falling"],
+  ["E_up", "E↑", tr`systematic error, rising`, tr`range of the means from below`],
+  ["E_down", "E↓", tr`systematic error, falling`, tr`range of the means from above`],
+  [
+    "M",
+    "M",
+    tr`mean bidirectional error`,
+    tr`range of the mean of both directions: what a one-way table can take away`,
+  ],
+  ["B", "B", tr`reversal error`, tr`largest lost motion at any target`],
+  ["B_mean", "B̄", tr`mean reversal error`, tr`mean lost motion, rising minus falling`],
 ];
 
 /** Unit of deviations as shown and in keys, unit of positions. */
@@ -57,39 +64,39 @@ function positioning(document: EvaluateDocument): Sheet[] {
   const U = p[`U_${key}`] as Record<string, unknown>;
   const figures: Sheet = {
     key: "figures",
-    title: "ISO 230-2 figures of the axis",
-    head: ["", "figure", shown, "U (k = 2)"],
+    title: tr`ISO 230-2 figures of the axis`,
+    head: ["", tr`figure`, shown, "U (k = 2)"],
     rows: FIGURES.map(([name, symbol, title]) => [symbol, title, value(p, `${name}_${key}`), value(U, name)]),
     hints: FIGURES.map((f) => f[3]),
-    note: "–: the readings do not allow it, or nothing is known of the instrument (U).",
+    note: tr`–: the readings do not allow it, or nothing is known of the instrument (U).`,
   };
   const vdi: Sheet = {
     key: "vdi3441",
-    title: "VDI/DGQ 3441",
-    head: ["", "figure", shown],
+    title: tr`VDI/DGQ 3441`,
+    head: ["", tr`figure`, shown],
     rows: [
-      ["P", "positional uncertainty", "P"],
-      ["Pa", "positional deviation", "Pa"],
-      ["Ps max", "positional scatter", "Ps"],
-      ["U max", "reversal", "U"],
+      ["P", tr`positional uncertainty`, "P"],
+      ["Pa", tr`positional deviation`, "Pa"],
+      ["Ps max", tr`positional scatter`, "Ps"],
+      ["U max", tr`reversal`, "U"],
     ].map(([symbol, title, name]): Cell[] => [symbol as string, title as string, value(p.vdi3441, `${name}_${key}`)]),
   };
   const b5: Sheet = {
     key: "b5_54",
-    title: "Form of ASME B5.54",
-    head: ["", "figure", shown],
+    title: tr`Form of ASME B5.54`,
+    head: ["", tr`figure`, shown],
     rows: [
-      ["both", "range of all readings", "accuracy"],
-      ["↑", "range of all readings, rising", "accuracy_up"],
-      ["↓", "range of all readings, falling", "accuracy_down"],
-      ["repeat", "largest range at one target from one side", "repeatability"],
-      ["reversal", "largest reversal", "reversal"],
+      [tr`both`, tr`range of all readings`, "accuracy"],
+      ["↑", tr`range of all readings, rising`, "accuracy_up"],
+      ["↓", tr`range of all readings, falling`, "accuracy_down"],
+      [tr`repeat`, tr`largest range at one target from one side`, "repeatability"],
+      [tr`reversal`, tr`largest reversal`, "reversal"],
     ].map(([symbol, title, name]): Cell[] => [
       symbol as string,
       title as string,
       value(p.b5_54_form, `${name}_${key}`),
     ]),
-    note: "The form was not compared with the text of the standard.",
+    note: tr`The form was not compared with the text of the standard.`,
   };
   const order =
     document.standard === "vdi3441"
@@ -97,19 +104,21 @@ function positioning(document: EvaluateDocument): Sheet[] {
       : document.standard === "b5.54"
         ? [b5, figures, vdi]
         : [figures, vdi, b5];
-  return [...order, ...budget(p, key, shown), targets(p, key, shown, place)];
+  return [...order, ...budget(p), targets(p, key, shown, place)];
 }
 
-function budget(p: Positioning, key: string, shown: string): Sheet[] {
+function budget(p: Positioning): Sheet[] {
   if (!p.budget) return [];
-  const end = `_u_${key}`;
-  const words = (name: string): string => (name === "drift" ? "drift, each reading" : name.replaceAll("_", " "));
+  // Of a rotary axis in the other unit than its figures.
+  const [end, shown] = p.kind === "rotary" ? ["_u_urad", "µrad"] : ["_u_um", "µm"];
+  const words = (name: string): string =>
+    name === "drift" ? tr`drift, each reading` : trText(name.replaceAll("_", " "));
   const rows = Object.entries(p.budget).map(([name, u]): Cell[] => [words(name.replace(end, "")), u]);
   return [
     {
       key: "budget",
-      title: "Measuring uncertainty (ISO/TR 230-9)",
-      head: ["contribution, over the measured length", `standard uncertainty, ${shown}`],
+      title: tr`Measuring uncertainty (ISO/TR 230-9)`,
+      head: [tr`contribution, over the measured length`, tr`standard uncertainty, ${shown}`],
       rows,
     },
   ];
@@ -119,8 +128,8 @@ function targets(p: Positioning, key: string, shown: string, place: string): She
   const columns = ["mean_up", "mean_down", "mean", "s_up", "s_down", "B", "R_up", "R_down", "R"];
   return {
     key: "targets",
-    title: `Every target, ${shown}`,
-    head: [`target, ${place}`, "n↑", "n↓", "x̄↑", "x̄↓", "x̄", "s↑", "s↓", "B", "R↑", "R↓", "R"],
+    title: tr`Every target, ${shown}`,
+    head: [tr`target, ${place}`, "n↑", "n↓", "x̄↑", "x̄↓", "x̄", "s↑", "s↓", "B", "R↑", "R↓", "R"],
     rows: p.positions.map((one) => [
       value(one, `target_${place}`),
       value(one, "n_up"),
@@ -136,52 +145,52 @@ function circular(document: EvaluateDocument): Sheet[] {
   const figures: Cell[][] = [];
   for (const way of ["ccw", "cw"]) {
     if (value(c, `G_${way}_um`) === null) continue;
-    const side = way === "ccw" ? "counter-clockwise" : "clockwise";
+    const side = way === "ccw" ? tr`counter-clockwise` : tr`clockwise`;
     figures.push(
-      [`G ${way}`, `circular deviation, ${side}`, value(c, `G_${way}_um`)],
-      [`F max ${way}`, `greatest radial deviation, ${side}`, value(c, `F_${way}_max_um`)],
-      [`F min ${way}`, `least radial deviation, ${side}`, value(c, `F_${way}_min_um`)],
+      [`G ${way}`, tr`circular deviation, ${side}`, value(c, `G_${way}_um`)],
+      [`F max ${way}`, tr`greatest radial deviation, ${side}`, value(c, `F_${way}_max_um`)],
+      [`F min ${way}`, tr`least radial deviation, ${side}`, value(c, `F_${way}_min_um`)],
     );
   }
-  if (c.G_b_um !== null) figures.push(["G(b)", "bidirectional circular deviation", c.G_b_um]);
-  if (c.D_um !== null) figures.push(["D", "mean bidirectional radial deviation", c.D_um]);
+  if (c.G_b_um !== null) figures.push(["G(b)", tr`bidirectional circular deviation`, c.G_b_um]);
+  if (c.D_um !== null) figures.push(["D", tr`mean bidirectional radial deviation`, c.D_um]);
   const sheets: Sheet[] = [
     {
       key: "figures",
-      title: "ISO 230-4 figures of the test",
-      head: ["", "figure", "µm"],
+      title: tr`ISO 230-4 figures of the test`,
+      head: ["", tr`figure`, "µm"],
       rows: figures,
-      note: "G about the least-squares centre, F about the nominal one, outward positive.",
+      note: tr`G about the least-squares centre, F about the nominal one, outward positive.`,
     },
   ];
   const causes = c.causes;
   if (!causes) return sheets;
   const [x, y] = c.axes;
   const rows: Cell[][] = [
-    ...Object.entries(causes.backlash_um).map(([axis, b]): Cell[] => [`reversal ${axis} (B = E↑ − E↓)`, b, "µm"]),
-    [`scale ${x} − ${y}, over the diameter`, causes.scale_mismatch_um, "µm"],
-    [`squareness ${x}${y}, closer than 90°`, causes.squareness_urad, "µrad"],
-    ["servo mismatch, ccw along +45°", causes.servo_mismatch_um, "µm"],
-    ["ellipse along 45°", causes.diagonal_ellipse_um, "µm"],
-    [`centre ${x}`, causes.centre_um?.[0] ?? null, "µm"],
-    [`centre ${y}`, causes.centre_um?.[1] ?? null, "µm"],
-    ["residual, rms", causes.residual_rms_um, "µm"],
+    ...Object.entries(causes.backlash_um).map(([axis, b]): Cell[] => [tr`reversal ${axis} (B = E↑ − E↓)`, b, "µm"]),
+    [tr`scale ${x} − ${y}, over the diameter`, causes.scale_mismatch_um, "µm"],
+    [tr`squareness ${x}${y}, closer than 90°`, causes.squareness_urad, "µrad"],
+    [tr`servo mismatch, ccw along +45°`, causes.servo_mismatch_um, "µm"],
+    [tr`ellipse along 45°`, causes.diagonal_ellipse_um, "µm"],
+    [tr`centre ${x}`, causes.centre_um?.[0] ?? null, "µm"],
+    [tr`centre ${y}`, causes.centre_um?.[1] ?? null, "µm"],
+    [tr`residual, rms`, causes.residual_rms_um, "µm"],
   ];
   sheets.push({
     key: "causes",
-    title: "What makes it unround",
-    head: ["cause", "value", "unit"],
+    title: tr`What makes it unround`,
+    head: [tr`cause`, tr`value`, tr`unit`],
     rows: rows.filter((row) => row[1] !== null),
-    note: "Least squares over all paths; 10° after each reversal are left out for the spikes.",
+    note: tr`Least squares over all paths; 10° after each reversal are left out for the spikes.`,
   });
   if (causes.spikes.length > 0) {
     sheets.push({
       key: "spikes",
-      title: "Reversal spikes",
-      head: ["axis", "at, deg", "way", "µm"],
+      title: tr`Reversal spikes`,
+      head: [tr`axis`, tr`at, deg`, tr`way`, "µm"],
       rows: causes.spikes.map((s) => [s.axis, s.at_deg, s.direction, s.height_um]),
       digits: [undefined, 0],
-      note: "Largest residual within 10° after the reversal, outward positive.",
+      note: tr`Largest residual within 10° after the reversal, outward positive.`,
     });
   }
   return sheets;
@@ -212,8 +221,16 @@ function drift(document: EvaluateDocument): Sheet[] {
   return [
     {
       key: "figures",
-      title: "ISO 230-3 range of every channel",
-      head: ["channel", "unit", "range", `first ${minutes} min`, `worst ${minutes} min`, "from, min", "end − begin"],
+      title: tr`ISO 230-3 range of every channel`,
+      head: [
+        tr`channel`,
+        tr`unit`,
+        tr`range`,
+        tr`first ${minutes} min`,
+        tr`worst ${minutes} min`,
+        tr`from, min`,
+        tr`end − begin`,
+      ],
       rows,
       digits: [undefined, undefined, 2, 2, 2, 1, 2],
     },
@@ -221,12 +238,12 @@ function drift(document: EvaluateDocument): Sheet[] {
 }
 
 const VOLUME: readonly [string, string, string][] = [
-  ["E_d", "E", "bidirectional systematic deviation"],
-  ["E_d_up", "E↑", "systematic deviation, rising"],
-  ["E_d_down", "E↓", "systematic deviation, falling"],
-  ["R_d", "R", "bidirectional repeatability"],
-  ["B_d", "B", "reversal value"],
-  ["A_d", "A", "bidirectional accuracy"],
+  ["E_d", "E", tr`bidirectional systematic deviation`],
+  ["E_d_up", "E↑", tr`systematic deviation, rising`],
+  ["E_d_down", "E↓", tr`systematic deviation, falling`],
+  ["R_d", "R", tr`bidirectional repeatability`],
+  ["B_d", "B", tr`reversal value`],
+  ["A_d", "A", tr`bidirectional accuracy`],
 ];
 
 function diagonals(document: EvaluateDocument): Sheet[] {
@@ -235,8 +252,8 @@ function diagonals(document: EvaluateDocument): Sheet[] {
   const sheets: Sheet[] = [
     {
       key: "figures",
-      title: "ISO 230-6 figures of the volume",
-      head: ["", "largest of all diagonals", "µm"],
+      title: tr`ISO 230-6 figures of the volume`,
+      head: ["", tr`largest of all diagonals`, "µm"],
       rows: VOLUME.map(([key, , title]) => [
         key.replace("_up", "↑").replace("_down", "↓"),
         title,
@@ -245,8 +262,8 @@ function diagonals(document: EvaluateDocument): Sheet[] {
     },
     {
       key: "diagonals",
-      title: "Every diagonal, µm",
-      head: ["diagonal", "A", "E", "E↑", "E↓", "M", "R", "B", "stretch, µm/m"],
+      title: tr`Every diagonal, µm`,
+      head: [tr`diagonal`, "A", "E", "E↑", "E↓", "M", "R", "B", tr`stretch, µm/m`],
       rows: d.diagonals.map((one) => [
         one.diagonal,
         ...columns.map((name) => value(one, `${name}_um`)),
@@ -257,10 +274,14 @@ function diagonals(document: EvaluateDocument): Sheet[] {
   if (d.squareness.length > 0)
     sheets.push({
       key: "squareness",
-      title: "Squareness",
-      head: ["axes", "from", "closer than 90°, µrad"],
-      rows: d.squareness.map((s) => [s.axes, `${s.from} diagonals`, s.closer_urad]),
-      note: "A hint: straightness, roll and pitch lengthen diagonals too.",
+      title: tr`Squareness`,
+      head: [tr`axes`, tr`from`, tr`closer than 90°, µrad`],
+      rows: d.squareness.map((s) => [
+        s.axes,
+        s.from === "body" ? tr`body diagonals` : tr`face diagonals`,
+        s.closer_urad,
+      ]),
+      note: tr`A hint: straightness, roll and pitch lengthen diagonals too.`,
     });
   return sheets;
 }
@@ -270,18 +291,41 @@ function rotation(document: EvaluateDocument): Sheet[] {
   return [
     {
       key: "figures",
-      title: `ISO 230-7 error motions over ${r.revolutions} revolutions`,
-      head: ["sensitive direction", "total, µm", "synchronous, µm", "asynchronous, µm", "once per revolution, µm"],
-      rows: r.motions.map((m) => [m.sensitive, m.total_um, m.synchronous_um, m.asynchronous_um, m.fundamental_um]),
-      note: "Radial: about the least-squares centre, without the once-per-revolution part; axial: with it.",
+      title: tr`ISO 230-7 error motions over ${r.revolutions} revolutions`,
+      head: [
+        tr`sensitive direction`,
+        tr`total, µm`,
+        tr`synchronous, µm`,
+        tr`asynchronous, µm`,
+        tr`once per revolution, µm`,
+      ],
+      rows: r.motions.map((m) => [
+        trText(m.sensitive),
+        m.total_um,
+        m.synchronous_um,
+        m.asynchronous_um,
+        m.fundamental_um,
+      ]),
+      note: tr`Radial: about the least-squares centre, without the once-per-revolution part; axial: with it.`,
     },
   ];
 }
 
+/** Columns of the report whose words are a verdict. Names of figures stay: a tolerance is stated for them. */
+const VERDICTS = ["verdict", "decision"];
+
 /** A table of the report, as it stands there. */
 function sheetOf(table: ReportTable, key: string): Sheet {
   const { title, note, headings, rows, words } = table;
-  return { key, title, head: [...headings], rows: rows.map((row) => [...row]), words, ...(note ? { note } : {}) };
+  const cells = rows.map((row) => row.map((cell, j) => (VERDICTS.includes(headings[j] ?? "") ? trText(cell) : cell)));
+  return {
+    key,
+    title: told(title),
+    head: headings.map(told),
+    rows: cells,
+    words,
+    ...(note ? { note: told(note) } : {}),
+  };
 }
 
 /** Tolerances first; of geometric tests and probes the tables of the report. */
@@ -296,15 +340,15 @@ export function sheetsOf(header: ServeEvaluate): Sheet[] {
 }
 
 const WORDS: Record<string, string> = {
-  A: "accuracy",
-  R: "repeatability",
-  E: "systematic",
-  M: "mean",
-  B: "reversal",
-  E_d: "systematic",
-  R_d: "repeatability",
-  B_d: "reversal",
-  A_d: "accuracy",
+  A: tr`accuracy`,
+  R: tr`repeatability`,
+  E: tr`systematic`,
+  M: tr`mean`,
+  B: tr`reversal`,
+  E_d: tr`systematic`,
+  R_d: tr`repeatability`,
+  B_d: tr`reversal`,
+  A_d: tr`accuracy`,
 };
 
 /** What stands large at the head: the figures that are asked for first. */
@@ -336,10 +380,10 @@ export function tilesOf(document: EvaluateDocument): Tile[] {
     case "circular": {
       const c = as<Circular>(document);
       return [
-        ["G_ccw", "G ccw", "circular deviation"],
-        ["G_cw", "G cw", "circular deviation"],
-        ["G_b", "G(b)", "bidirectional circular deviation"],
-        ["D", "D", "mean bidirectional radial deviation"],
+        ["G_ccw", "G ccw", tr`circular deviation`],
+        ["G_cw", "G cw", tr`circular deviation`],
+        ["G_b", "G(b)", tr`bidirectional circular deviation`],
+        ["D", "D", tr`mean bidirectional radial deviation`],
       ]
         .map(([key, symbol, title]) => ({
           symbol: symbol as string,
@@ -361,8 +405,8 @@ export function tilesOf(document: EvaluateDocument): Tile[] {
     case "rotation":
       return as<Rotation>(document).motions.map((m) => ({
         symbol: m.sensitive,
-        word: "total",
-        title: "total error motion",
+        word: tr`total`,
+        title: tr`total error motion`,
         value: m.total_um,
         unit: "µm",
       }));
@@ -371,8 +415,8 @@ export function tilesOf(document: EvaluateDocument): Tile[] {
         .filter((row) => row[1] !== "°C")
         .map((row) => ({
           symbol: String(row[0]),
-          word: "range",
-          title: "range over the whole test",
+          word: tr`range`,
+          title: tr`range over the whole test`,
           value: row[2] as number | null,
           unit: String(row[1]),
         }));

@@ -1,5 +1,6 @@
 /** What was answered about a new machine, and the request that it becomes. */
 
+import { tr } from "../../words/index.ts";
 import type { Request } from "../../api.ts";
 
 export interface AxisAnswer {
@@ -26,16 +27,16 @@ const numberOf = (typed: string): number =>
 
 /** What is wrong with the answers; null if nothing is. */
 export function wrongAnswers(answers: MachineAnswers, axes: readonly string[]): string | null {
-  if (answers.name.trim() === "") return "The machine has no name.";
-  if (/["\\]/.test(answers.name)) return 'The name cannot contain " or \\.';
+  if (answers.name.trim() === "") return tr`The machine has no name.`;
+  if (/["\\]/.test(answers.name)) return tr`The name cannot contain " or \\.`;
   if (answers.height.trim() !== "" && !Number.isFinite(numberOf(answers.height)))
-    return `"${answers.height}" is not a number of mm.`;
+    return tr`"${answers.height}" is not a number of mm.`;
   for (const axis of axes) {
     const { from, to, unlimited } = answers.axes[axis] as AxisAnswer;
     if (unlimited && !"XYZ".includes(axis)) continue;
     const bad = [from, to].find((end) => !Number.isFinite(numberOf(end)));
-    if (bad !== undefined) return `${axis}: "${bad}" is not a number.`;
-    if (numberOf(from) >= numberOf(to)) return `${axis} goes from the smaller to the larger number.`;
+    if (bad !== undefined) return tr`${axis}: "${bad}" is not a number.`;
+    if (numberOf(from) >= numberOf(to)) return tr`${axis} goes from the smaller to the larger number.`;
   }
   return null;
 }

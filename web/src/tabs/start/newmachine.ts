@@ -1,5 +1,6 @@
 /** A machine of one's own by a few questions: chain, travels, signs. */
 
+import { tr } from "../../words/index.ts";
 import type { App } from "../../app.ts";
 import { fill, h, s } from "../../dom.ts";
 import { FileDialog, type FileForm } from "../../filedialog.ts";
@@ -23,8 +24,8 @@ interface Kind {
 const KINDS: readonly Kind[] = [
   {
     key: "three-axis",
-    title: "X, Y and Z alone",
-    such: "milling machines, milling tables",
+    title: tr`X, Y and Z alone`,
+    such: tr`milling machines, milling tables`,
     tilting: null,
     workpiece: ["X", "Y"],
     table: [],
@@ -39,8 +40,8 @@ const KINDS: readonly Kind[] = [
   },
   {
     key: "table-table",
-    title: "Both rotary axes carry the workpiece",
-    such: "tilting rotary table, trunnion",
+    title: tr`Both rotary axes carry the workpiece`,
+    such: tr`tilting rotary table, trunnion`,
     tilting: "A",
     workpiece: [],
     table: ["tilting", "C"],
@@ -60,8 +61,8 @@ const KINDS: readonly Kind[] = [
   },
   {
     key: "head-head",
-    title: "Both carry the tool",
-    such: "fork head, gantries",
+    title: tr`Both carry the tool`,
+    such: tr`fork head, gantries`,
     tilting: "A",
     workpiece: [],
     table: [],
@@ -82,8 +83,8 @@ const KINDS: readonly Kind[] = [
   },
   {
     key: "head-table",
-    title: "One each",
-    such: "rotary table and swivelling head",
+    title: tr`One each`,
+    such: tr`rotary table and swivelling head`,
     tilting: "B",
     workpiece: [],
     table: ["C"],
@@ -178,7 +179,7 @@ class Questions implements FileForm {
     return h(
       "fieldset",
       {},
-      h("legend", {}, "What do the rotary axes carry?"),
+      h("legend", {}, tr`What do the rotary axes carry?`),
       h(
         "div",
         { class: "machine-kinds" },
@@ -245,11 +246,11 @@ class Questions implements FileForm {
       h(
         "fieldset",
         {},
-        h("legend", {}, "Name, and what moves"),
+        h("legend", {}, tr`Name, and what moves`),
         h(
           "div",
           { class: "file-dialog-fields" },
-          text("Name of the machine", answers.name, (typed) => (answers.name = typed), "28", "name"),
+          text(tr`Name of the machine`, answers.name, (typed) => (answers.name = typed), "28", "name"),
           this.tilting(),
           text(this.heightLabel(), answers.height, (typed) => (answers.height = typed), "10", "height"),
           this.carried(),
@@ -258,7 +259,7 @@ class Questions implements FileForm {
       h(
         "fieldset",
         {},
-        h("legend", {}, "Travels: the software limits of the control; and signs"),
+        h("legend", {}, tr`Travels: the software limits of the control; and signs`),
         h(
           "div",
           { class: "machine-axes" },
@@ -267,7 +268,7 @@ class Questions implements FileForm {
         h(
           "p",
           { class: "muted" },
-          "Signs: jog each axis to plus and look at the machine. By ISO 841 the tool moves to plus as seen from the workpiece; a table that carries the workpiece therefore moves to minus, and a rotary table turns clockwise, seen from above.",
+          tr`Signs: jog each axis to plus and look at the machine. By ISO 841 the tool moves to plus as seen from the workpiece; a table that carries the workpiece therefore moves to minus, and a rotary table turns clockwise, seen from above.`,
         ),
       ),
     );
@@ -277,10 +278,10 @@ class Questions implements FileForm {
   /** What the template measures Z from. */
   private heightLabel(): string {
     const { tilting } = this.answers;
-    if (!tilting) return "Spindle gauge line above the table at Z = 0, mm";
+    if (!tilting) return tr`Spindle gauge line above the table at Z = 0, mm`;
     return this.kind.table.includes("tilting")
-      ? `Spindle gauge line above the place where ${tilting} and C meet at Z = 0, mm`
-      : `Axis of ${tilting} above the table at Z = 0, mm`;
+      ? tr`Spindle gauge line above the place where ${tilting} and C meet at Z = 0, mm`
+      : tr`Axis of ${tilting} above the table at Z = 0, mm`;
   }
 
   private tilting(): HTMLElement | null {
@@ -295,19 +296,19 @@ class Questions implements FileForm {
           this.draw();
         },
       },
-      h("option", { value: "A" }, "A, about X"),
-      h("option", { value: "B" }, "B, about Y"),
+      h("option", { value: "A" }, tr`A, about X`),
+      h("option", { value: "B" }, tr`B, about Y`),
     );
     select.value = answers.tilting ?? this.kind.tilting;
-    return h("label", {}, h("span", { class: "muted" }, "The axis that tilts"), select);
+    return h("label", {}, h("span", { class: "muted" }, tr`The axis that tilts`), select);
   }
 
   private carried(): HTMLElement {
     const { answers } = this;
     return h(
       "div",
-      { role: "group", ariaLabel: "Linear axes that move the table" },
-      h("span", { class: "muted" }, "Linear axes that move the table"),
+      { role: "group", ariaLabel: tr`Linear axes that move the table` },
+      h("span", { class: "muted" }, tr`Linear axes that move the table`),
       h(
         "div",
         { class: "row" },
@@ -338,7 +339,7 @@ class Questions implements FileForm {
         size: "7",
         value: answer[end],
         disabled: answer.unlimited,
-        ariaLabel: `${name} ${end}`,
+        ariaLabel: end === "from" ? tr`${name} from` : tr`${name} to`,
         dataField: `${name}-${end}`,
         oninput: () => {
           answer[end] = box.value;
@@ -360,7 +361,7 @@ class Questions implements FileForm {
     const sign = h(
       "select",
       {
-        ariaLabel: `Sign of ${name}`,
+        ariaLabel: tr`Sign of ${name}`,
         dataField: `${name}-sign`,
         onchange: () => (answer.reversed = sign.value === "other"),
       },
@@ -372,8 +373,8 @@ class Questions implements FileForm {
       "div",
       { class: "machine-axis" },
       h("strong", {}, name),
-      h("span", {}, ends[0], " to ", ends[1], is_rotary ? " deg" : " mm"),
-      h("span", {}, is_rotary ? h("label", {}, around, " unlimited") : null),
+      h("span", {}, ends[0], tr` to `, ends[1], is_rotary ? " deg" : " mm"),
+      h("span", {}, is_rotary ? h("label", {}, around, tr` unlimited`) : null),
       h("label", {}, h("span", { class: "muted" }, `+${name}: `), sign),
     );
   }
@@ -382,24 +383,34 @@ class Questions implements FileForm {
   private plus(axis: string, other: boolean): string {
     const tilting = axis === this.answers.tilting;
     const on_table = this.answers.workpiece.includes(axis) || this.kind.table.includes(tilting ? "tilting" : axis);
-    const iso = other ? "" : " (ISO 841)";
-    if ("XYZ".includes(axis)) {
-      const plus = on_table === other;
-      return `the ${on_table ? "table" : "tool"} moves to ${plus ? "plus" : "minus"} ${axis}${iso}`;
-    }
-    const about = axis === "C" ? "Z" : axis === "A" ? "X" : "Y";
-    const clockwise = on_table !== other;
-    return `the ${on_table ? "table" : "tool"} turns ${clockwise ? "clockwise" : "counter-clockwise"}, seen from +${about}${iso}`;
+    const words = "XYZ".includes(axis) ? slides(axis, on_table, on_table === other) : turns(axis, on_table, other);
+    return other ? words : `${words} (ISO 841)`;
   }
+}
+
+function slides(axis: string, table: boolean, plus: boolean): string {
+  if (table) return plus ? tr`the table moves to plus ${axis}` : tr`the table moves to minus ${axis}`;
+  return plus ? tr`the tool moves to plus ${axis}` : tr`the tool moves to minus ${axis}`;
+}
+
+function turns(axis: string, table: boolean, other: boolean): string {
+  const about = axis === "C" ? "Z" : axis === "A" ? "X" : "Y";
+  if (table)
+    return other
+      ? tr`the table turns counter-clockwise, seen from +${about}`
+      : tr`the table turns clockwise, seen from +${about}`;
+  return other
+    ? tr`the tool turns clockwise, seen from +${about}`
+    : tr`the tool turns counter-clockwise, seen from +${about}`;
 }
 
 /** Asks, saves, and shows the new machine. */
 export function newMachine(app: App): void {
-  const dialog = new FileDialog(app, "new-machine", "A machine of my own", "Save and show");
+  const dialog = new FileDialog(app, "new-machine", tr`A machine of my own`, tr`Save and show`);
   const questions = new Questions(app);
   dialog.element.addEventListener("close", () => dialog.element.remove());
   void dialog.open({
-    title: "A machine of my own",
+    title: tr`A machine of my own`,
     path: () => questions.path(),
     form: () => questions,
     saved: (path) => app.go("describe", { machine: path }),

@@ -1,5 +1,6 @@
 /** The pictures of what was verified, drawn from the documents of `trueaxis verify`. */
 
+import { tr, trText } from "../../words/index.ts";
 import type { ServeVerify } from "../../../types.d.ts";
 import { h } from "../../dom.ts";
 import { bars, lineChart, scatter, type Figure } from "../../figure/index.ts";
@@ -29,9 +30,10 @@ function readings(host: HTMLElement, document: Of<"trueaxis/verify/1">): Drawn {
   for (const unit of ["um", "urad"]) {
     const all = document.deviations.filter((one) => Number.isFinite(keyed(one, `deviation_${unit}`)));
     if (all.length === 0) continue;
-    const names = [...new Set(all.map((one) => `${one.instrument}, channel ${one.channel + 1}`))];
+    const nameOf = (one: (typeof all)[number]): string => tr`${one.instrument}, channel ${one.channel + 1}`;
+    const names = [...new Set(all.map(nameOf))];
     const series = names.map((name): Series => {
-      const mine = all.filter((one) => `${one.instrument}, channel ${one.channel + 1}` === name);
+      const mine = all.filter((one) => nameOf(one) === name);
       return {
         name,
         x: mine.map((one) => one.line),
@@ -43,9 +45,9 @@ function readings(host: HTMLElement, document: Of<"trueaxis/verify/1">): Drawn {
     drawn.push(
       as(
         scatter(host, {
-          title: `Measured − expected, with U (k = ${number(document.coverage_factor, 0)})`,
-          x: { label: "line of the readings", digits: 0 },
-          y: { label: "deviation", unit: unitText(unit) },
+          title: tr`Measured − expected, with U (k = ${number(document.coverage_factor, 0)})`,
+          x: { label: tr`line of the readings`, digits: 0 },
+          y: { label: tr`deviation`, unit: unitText(unit) },
           series,
           height: 300,
         }),
@@ -69,7 +71,7 @@ function calibrations(host: HTMLElement, document: Of<"trueaxis/diff/1">): Drawn
     drawn.push(
       as(
         bars(host, {
-          title: `Change of each error, ${unitText(unit)}`,
+          title: tr`Change of each error, ${unitText(unit)}`,
           unit: unitText(unit),
           digits: 2,
           bars: all.map((one) => ({
@@ -77,7 +79,7 @@ function calibrations(host: HTMLElement, document: Of<"trueaxis/diff/1">): Drawn
             value: one.change,
             u: one.u_change,
             colour: colours[one.moved] ?? "var(--line-strong)",
-            note: `changed: ${one.moved}${one.E_n === null ? "" : `, E_n ${number(one.E_n, 2)}`}`,
+            note: tr`changed: ${trText(one.moved)}${one.E_n === null ? "" : `, E_n ${number(one.E_n, 2)}`}`,
           })),
         }),
       ),
@@ -87,7 +89,7 @@ function calibrations(host: HTMLElement, document: Of<"trueaxis/diff/1">): Drawn
     h(
       "p",
       { class: "muted note picture-note" },
-      "New − old where the change is clearest; whiskers ± 2u, about 95 %. Red: changed significantly; amber: perhaps; grey: no.",
+      tr`New − old where the change is clearest; whiskers ± 2u, about 95 %. Red: changed significantly; amber: perhaps; grey: no.`,
     ),
   );
   const shares = document.tip.shares.filter((one) => one.largest_um > 0).slice(0, 20);
@@ -95,7 +97,7 @@ function calibrations(host: HTMLElement, document: Of<"trueaxis/diff/1">): Drawn
     drawn.push(
       as(
         bars(host, {
-          title: "What the change of each error alone does to the tip, largest",
+          title: tr`What the change of each error alone does to the tip, largest`,
           unit: "µm",
           digits: 2,
           bars: shares.map((one) => ({ name: one.error, value: one.largest_um })),
@@ -125,19 +127,19 @@ function history(host: HTMLElement, document: Of<"trueaxis/history/1">): Drawn {
     const limits: Limit[] = [
       ...(control_limits
         ? [
-            { value: control_limits[0], label: "lower control limit" },
-            { value: control_limits[2], label: "upper control limit" },
+            { value: control_limits[0], label: tr`lower control limit` },
+            { value: control_limits[2], label: tr`upper control limit` },
           ]
         : []),
       ...(limit === null
         ? []
-        : sides.map((side) => ({ value: side * limit, label: `limit ${number(side * limit, 1)} ${unit}` }))),
+        : sides.map((side) => ({ value: side * limit, label: tr`limit ${number(side * limit, 1)} ${unit}` }))),
     ];
     const has_u = one.points.every((point) => point.u !== null);
     return as(
       lineChart(host, {
-        title: `${one.figure}${is_loud(one) ? " – needs attention" : ""}`,
-        x: { label: "year", digits: 2 },
+        title: is_loud(one) ? tr`${one.figure} – needs attention` : one.figure,
+        x: { label: tr`year`, digits: 2 },
         y: { label: one.figure, unit },
         series: [
           {
@@ -154,7 +156,7 @@ function history(host: HTMLElement, document: Of<"trueaxis/history/1">): Drawn {
     );
   };
   const drawn = all.slice(0, MOST_CHARTS).map(chart);
-  const words = `Whiskers: ± 2u, about 95 %.${all.length > MOST_CHARTS ? ` The first ${MOST_CHARTS} of ${all.length} figures.` : ""}`;
+  const words = tr`Whiskers: ± 2u, about 95 %.${all.length > MOST_CHARTS ? tr` The first ${MOST_CHARTS} of ${all.length} figures.` : ""}`;
   host.append(h("p", { class: "muted note picture-note" }, words));
   return drawn;
 }
@@ -172,12 +174,12 @@ function certificate(host: HTMLElement, document: Of<"trueaxis/certificate/1">):
     ...more,
   });
   const before = one(
-    "before",
+    tr`before`,
     poses.map((pose) => pose.length_before_um),
     { colour: "var(--actual)" },
   );
   const after = one(
-    "after",
+    tr`after`,
     poses.map((pose) => pose.length_after_um),
     {
       colour: "var(--series-1)",
@@ -186,7 +188,7 @@ function certificate(host: HTMLElement, document: Of<"trueaxis/certificate/1">):
     },
   );
   const within = one(
-    "predicted to be within (95 %)",
+    tr`predicted to be within (95 %)`,
     poses.map((pose) => pose.predicted_within_um),
     {
       colour: "var(--muted)",
@@ -195,26 +197,33 @@ function certificate(host: HTMLElement, document: Of<"trueaxis/certificate/1">):
       dash: "4 3",
     },
   );
-  const limit = { value: document.decision.limit_um, label: `limit ${number(document.decision.limit_um, 1)} µm` };
+  const limit = { value: document.decision.limit_um, label: tr`limit ${number(document.decision.limit_um, 1)} µm` };
   const chart = (title: string, series: Series[]): Figure<never> =>
     as(
       scatter(host, {
         title,
-        x: { label: "pose of the validation", digits: 0 },
-        y: { label: "deviation of the tip", unit: "µm", min: 0 },
+        x: { label: tr`pose of the validation`, digits: 0 },
+        y: { label: tr`deviation of the tip`, unit: "µm", min: 0 },
         series,
         limits: [limit],
         height: 240,
       }),
     );
   const drawn = [
-    chart("Deviation of the tip, without and with the compensation", [before, after]),
-    chart("Deviation of the tip with the compensation", [after, within]),
+    chart(tr`Deviation of the tip, without and with the compensation`, [before, after]),
+    chart(tr`Deviation of the tip with the compensation`, [after, within]),
   ];
-  const words = `Whiskers: U of one coordinate of a reading, ${number(expanded_um, 2)} µm (k = ${number(document.decision.coverage_factor, 0)}).`;
+  const words = tr`Whiskers: U of one coordinate of a reading, ${number(expanded_um, 2)} µm (k = ${number(document.decision.coverage_factor, 0)}).`;
   host.append(h("p", { class: "muted note picture-note" }, words));
   return drawn;
 }
+
+/** By the names of the document. */
+const COMPENSATIONS: Readonly<Record<string, string>> = {
+  none: tr`compensation: none`,
+  machine: tr`compensation: machine`,
+  comprehensive: tr`compensation: comprehensive`,
+};
 
 /** What each laser reads on each path under each compensation. */
 function lasers(host: HTMLElement, document: Of<"trueaxis/before-after/1">): Drawn {
@@ -230,7 +239,7 @@ function lasers(host: HTMLElement, document: Of<"trueaxis/before-after/1">): Dra
       (["up_um", "down_um"] as const)
         .filter((side) => curve.targets.some((target) => target[side] !== null))
         .map((side) => ({
-          name: `compensation: ${curve.compensation}`,
+          name: COMPENSATIONS[curve.compensation] ?? curve.compensation,
           x: curve.targets.map((target) => target.target_mm),
           y: curve.targets.map((target) => target[side] ?? Number.NaN),
           colour: colours[curve.compensation] ?? "var(--series-3)",
@@ -240,9 +249,9 @@ function lasers(host: HTMLElement, document: Of<"trueaxis/before-after/1">): Dra
     );
     return as(
       lineChart(host, {
-        title: `${path}: mean deviation at each target`,
-        x: { label: `target on ${curves[0]?.axis ?? ""}`, unit: "mm", digits: 1 },
-        y: { label: "deviation", unit: "µm" },
+        title: tr`${path}: mean deviation at each target`,
+        x: { label: tr`target on ${curves[0]?.axis ?? ""}`, unit: "mm", digits: 1 },
+        y: { label: tr`deviation`, unit: "µm" },
         series,
         height: 250,
       }),
@@ -254,32 +263,32 @@ function lasers(host: HTMLElement, document: Of<"trueaxis/before-after/1">): Dra
 function part(host: HTMLElement, document: Of<"trueaxis/verify-part/1">): Drawn {
   const um = (mm: number | null | undefined): number | null => (mm === null || mm === undefined ? null : 1e3 * mm);
   const measured = document.indices.map((one) => ({
-    name: one.index.replace(/_mm$/, "").replaceAll("_", " "),
+    name: trText(one.index.replace(/_mm$/, "").replaceAll("_", " ")),
     value: um(one.mean_mm ?? one.measured_mm[0]),
     u: um(one.u_mean_mm ?? one.u_measured_mm?.[0]),
-    note: one.tolerance_mm === null ? "" : `limit ${number(1e3 * one.tolerance_mm, 1)} µm`,
+    note: one.tolerance_mm === null ? "" : tr`limit ${number(1e3 * one.tolerance_mm, 1)} µm`,
   }));
   const predicted = document.indices.map((one, i) => ({
     name: measured[i]?.name ?? "",
     value: um(one.predicted_mm),
-    missing: "not predicted",
+    missing: tr`not predicted`,
     u: um(one.u_predicted_mm),
   }));
   const of = (one: { value: number | null; u: number | null }): number => (one.value ?? 0) + 2 * (one.u ?? 0);
   const max = Math.max(1e-9, ...measured.map(of), ...predicted.map(of));
   const drawn = [
-    as(bars(host, { title: "Measured, mean of the parts", unit: "µm", digits: 1, bars: measured, max })),
-    as(bars(host, { title: "Predicted", unit: "µm", digits: 1, bars: predicted, max })),
+    as(bars(host, { title: tr`Measured, mean of the parts`, unit: "µm", digits: 1, bars: measured, max })),
+    as(bars(host, { title: tr`Predicted`, unit: "µm", digits: 1, bars: predicted, max })),
   ];
-  host.append(h("p", { class: "muted note picture-note" }, "Whiskers: ± 2u, about 95 %; both on one scale."));
+  host.append(h("p", { class: "muted note picture-note" }, tr`Whiskers: ± 2u, about 95 %; both on one scale.`));
   const sections = document.sections.filter((one) => one.part === 1).slice(0, 8);
   if (sections.length > 0)
     drawn.push(
       as(
         lineChart(host, {
-          title: "Points of part 1, normal deviation in each section",
-          x: { label: "azimuth", unit: "°", digits: 1 },
-          y: { label: "deviation; above 0: material left", unit: "µm" },
+          title: tr`Points of part 1, normal deviation in each section`,
+          x: { label: tr`azimuth`, unit: "°", digits: 1 },
+          y: { label: tr`deviation; above 0: material left`, unit: "µm" },
           series: sections.map((one) => ({
             name: `z ${number(one.z_mm, 1)} mm`,
             x: one.azimuth_deg,

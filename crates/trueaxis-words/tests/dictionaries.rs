@@ -1,0 +1,35 @@
+//! The dictionaries of this program: each can be read, and all languages have the same texts.
+
+use std::collections::BTreeSet;
+use trueaxis_report::Language;
+use trueaxis_words::{TONGUES, Tongue};
+
+fn texts(tongue: Tongue) -> BTreeSet<&'static str> {
+    let dictionary = tongue.dictionary().expect("a dictionary");
+    // One that cannot be read is empty: the example `untranslated` says what is wrong with it.
+    assert!(
+        !dictionary.is_empty(),
+        "{tongue:?}: cargo run -p trueaxis-words --example untranslated"
+    );
+    dictionary.english().collect()
+}
+
+#[test]
+fn all_languages_have_the_same_texts() {
+    let (german, chinese) = (texts(Tongue::German), texts(Tongue::Chinese));
+    let only = |a: &BTreeSet<&'static str>, b: &BTreeSet<&'static str>| -> Vec<&'static str> {
+        a.difference(b).copied().collect()
+    };
+    assert_eq!(only(&german, &chinese), Vec::<&str>::new(), "in German only");
+    assert_eq!(only(&chinese, &german), Vec::<&str>::new(), "in Chinese only");
+}
+
+#[test]
+fn names_and_numbers_stay() {
+    for (_, tongue) in TONGUES {
+        for text in ["", "EXX", "2.50 µm", "examples/part.nc", "my machine", "A. Meyer", "G54 X10"]
+        {
+            assert_eq!(tongue.text(text), text, "{tongue:?}");
+        }
+    }
+}

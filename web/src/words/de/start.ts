@@ -1,0 +1,176 @@
+import type { Dictionary } from "../index.ts";
+
+export const texts: Dictionary = {
+  "What the machine is, and where its tool really is": "Was die Maschine ist und wo ihr Werkzeug wirklich steht",
+  "What it does with a program": "Was sie mit einem Programm macht",
+  "Whether the part will be good": "Ob das Teil gut wird",
+  "What to measure, and with what uncertainty": "Was zu messen ist und mit welcher Unsicherheit",
+  "Readings, station by station, and how well they repeat":
+    "Messwerte, Position für Position, und wie gut sie sich wiederholen",
+  "What the machine is like, from readings": "Wie die Maschine ist, aus Messwerten",
+  "What the control has to add": "Was die Steuerung dazugeben muss",
+  "Whether it is as promised, and what has changed": "Ob sie hält, was zugesagt ist, und was sich geändert hat",
+  "Readings judged by ISO 230": "Messwerte nach ISO 230 beurteilt",
+  "What the correction in the control is doing": "Was die Korrektur in der Steuerung gerade macht",
+  Machines: "Maschinen",
+  Programs: "Programme",
+  Studies: "Studien",
+  Campaigns: "Messkampagnen",
+  Comparisons: "Vergleiche",
+  Certificates: "Zertifikate",
+  "Measured parts": "Gemessene Teile",
+  "Paths on measured blanks": "Bahnen auf gemessenen Rohteilen",
+  "Live runs": "Live-Läufe",
+  "Set-ups": "Aufspannungen",
+  "Cutter locations": "Werkzeugwege (CL-Daten)",
+  "{0} is not a file that this page opens by dropping": "{0} ist keine Datei, die diese Seite durch Ablegen öffnet",
+  "Drop an NC program or a CSV of readings; machine files and studies belong into the project folder.":
+    "Ein NC-Programm oder eine CSV-Datei mit Messwerten ablegen; Maschinendateien und Studien gehören in den Projektordner.",
+  "Remove {0}": "{0} entfernen",
+  Remove: "Entfernen",
+  "Dropped files": "Abgelegte Dateien",
+  "Kept by this browser for a reload, at most {0} files and {1}; the oldest go first.":
+    "Von diesem Browser für ein erneutes Laden aufbewahrt, höchstens {0} Dateien und {1}; die ältesten fallen zuerst weg.",
+  "Open a file of this computer": "Datei dieses Rechners öffnen",
+  "Drop a program or readings here": "Programm oder Messwerte hier ablegen",
+  "NC programs open in Simulate, CSV readings in Standards. Nothing leaves this computer.":
+    "NC-Programme öffnen in „Simulieren“, CSV-Messwerte in „Normen“. Nichts verlässt diesen Rechner.",
+  "Where is the tool really, and is the part good?": "Wo steht das Werkzeug wirklich, und wird das Teil gut?",
+  "Open an example, or a file of this folder.": "Ein Beispiel oder eine Datei dieses Ordners öffnen.",
+  "Files of this folder": "Dateien dieses Ordners",
+  "A machine of my own …": "Eigene Maschine …",
+  "The machine has no name.": "Die Maschine hat keinen Namen.",
+  'The name cannot contain " or \\.': 'Der Name darf weder " noch \\ enthalten.',
+  '"{0}" is not a number of mm.': "„{0}“ ist keine Zahl in mm.",
+  '{0}: "{1}" is not a number.': "{0}: „{1}“ ist keine Zahl.",
+  "{0} goes from the smaller to the larger number.": "{0} geht von der kleineren zur größeren Zahl.",
+  "X, Y and Z alone": "Nur X, Y und Z",
+  "milling machines, milling tables": "Fräsmaschinen, Frästische",
+  "Both rotary axes carry the workpiece": "Beide Rundachsen tragen das Werkstück",
+  "tilting rotary table, trunnion": "Dreh-Schwenktisch, Schwenkbrücke",
+  "Both carry the tool": "Beide tragen das Werkzeug",
+  "fork head, gantries": "Gabelkopf, Portalmaschinen",
+  "One each": "Je eine",
+  "rotary table and swivelling head": "Rundtisch und Schwenkkopf",
+  "What do the rotary axes carry?": "Was tragen die Rundachsen?",
+  "Name, and what moves": "Name, und was sich bewegt",
+  "Name of the machine": "Name der Maschine",
+  "Travels: the software limits of the control; and signs":
+    "Verfahrwege (Software-Endschalter der Steuerung) und Vorzeichen",
+  "Signs: jog each axis to plus and look at the machine. By ISO 841 the tool moves to plus as seen from the workpiece; a table that carries the workpiece therefore moves to minus, and a rotary table turns clockwise, seen from above.":
+    "Vorzeichen: jede Achse von Hand nach Plus verfahren und die Maschine beobachten. Nach ISO 841 bewegt sich das Werkzeug, vom Werkstück aus gesehen, nach Plus; ein Tisch, der das Werkstück trägt, bewegt sich deshalb nach Minus, und ein Rundtisch dreht sich, von oben gesehen, im Uhrzeigersinn.",
+  "Spindle gauge line above the table at Z = 0, mm": "Bezugsebene der Spindel über dem Tisch bei Z = 0, mm",
+  "Spindle gauge line above the place where {0} and C meet at Z = 0, mm":
+    "Bezugsebene der Spindel über dem Schnittpunkt von {0} und C bei Z = 0, mm",
+  "Axis of {0} above the table at Z = 0, mm": "Achse von {0} über dem Tisch bei Z = 0, mm",
+  "A, about X": "A, um X",
+  "B, about Y": "B, um Y",
+  "The axis that tilts": "Die Achse, die schwenkt",
+  "Linear axes that move the table": "Linearachsen, die den Tisch bewegen",
+  "{0} from": "{0} von",
+  "{0} to": "{0} bis",
+  "Sign of {0}": "Vorzeichen von {0}",
+  " to ": " bis ",
+  " unlimited": " unbegrenzt",
+  "the table moves to plus {0}": "der Tisch bewegt sich nach Plus {0}",
+  "the table moves to minus {0}": "der Tisch bewegt sich nach Minus {0}",
+  "the tool moves to plus {0}": "das Werkzeug bewegt sich nach Plus {0}",
+  "the tool moves to minus {0}": "das Werkzeug bewegt sich nach Minus {0}",
+  "the table turns counter-clockwise, seen from +{0}": "der Tisch dreht sich gegen den Uhrzeigersinn, von +{0} gesehen",
+  "the table turns clockwise, seen from +{0}": "der Tisch dreht sich im Uhrzeigersinn, von +{0} gesehen",
+  "the tool turns clockwise, seen from +{0}": "das Werkzeug dreht sich im Uhrzeigersinn, von +{0} gesehen",
+  "the tool turns counter-clockwise, seen from +{0}":
+    "das Werkzeug dreht sich gegen den Uhrzeigersinn, von +{0} gesehen",
+  "A machine of my own": "Eigene Maschine",
+  "Save and show": "Speichern und anzeigen",
+};
+
+/** What the server says. */
+export const server: Dictionary = {
+  "Five-axis gantry": "Fünfachs-Portalmaschine",
+  "XKAS2525x60 with a fork head and 72 errors": "XKAS2525x60 mit Gabelkopf und 72 Fehlern",
+  "Engraving centre": "Gravierzentrum",
+  "i5, table-table, with models of its bodies": "i5, beide Rundachsen im Tisch, mit Modellen ihrer Körper",
+  "Gantry in a warm hall": "Portalmaschine in einer warmen Halle",
+  "Zhang et al. 2019: scales with sensors, a workpiece that grows":
+    "Zhang et al. 2019: Maßstäbe mit Sensoren, ein Werkstück, das wächst",
+  "Frustum on the five-axis gantry": "Kegelstumpf auf der Fünfachs-Portalmaschine",
+  "SINUMERIK, one turn round the NAS979 piece: 97 µm off, and where":
+    "SINUMERIK, ein Umlauf um das NAS979-Werkstück: 97 µm daneben, und wo",
+  "Impeller on a gantry": "Laufrad auf einer Portalmaschine",
+  "SINUMERIK, tool-centre point, five axes at once": "SINUMERIK, TCP (TRAORI), fünf Achsen simultan",
+  "Bangle on the engraving centre": "Armreif auf dem Gravierzentrum",
+  "FANUC, rotary table under a fixed head": "FANUC, Rundtisch unter festem Kopf",
+  "A tool that is too short": "Ein zu kurzes Werkzeug",
+  "the holder runs into the workpiece: where, and when?": "der Halter läuft in das Werkstück: wo und wann?",
+  "NAS979 frustum on the gantry": "NAS979-Kegelstumpf auf der Portalmaschine",
+  "eleven indices with their uncertainty, and the error budget":
+    "elf Kennwerte mit ihrer Unsicherheit und das Fehlerbudget",
+  "The same with a head out of square": "Dasselbe mit einem Kopf, der nicht rechtwinklig steht",
+  "fails; which single correction saves it?": "nicht bestanden; welche einzelne Korrektur rettet es?",
+  "ISO cone on the engraving centre": "ISO-Kegel auf dem Gravierzentrum",
+  "a cone frustum on a table-table machine": "ein Kegelstumpf auf einer Maschine mit beiden Rundachsen im Tisch",
+  "32 holes in a warm hall": "32 Bohrungen in einer warmen Halle",
+  "compensating the machine alone makes the part worse": "nur die Maschine zu kompensieren macht das Teil schlechter",
+  "A housing by its drawing": "Ein Gehäuse nach Zeichnung",
+  "eleven characteristics, which error costs what, and one without a verdict":
+    "elf Merkmale, welcher Fehler was kostet, und eines ohne Urteil",
+  "Circle, diamond, square": "Kreis, Raute, Quadrat",
+  "the contour test piece of ISO 10791-7 as a part: which error is seen in which contour":
+    "das Konturprüfwerkstück der ISO 10791-7 als Teil: welcher Fehler in welcher Kontur zu sehen ist",
+  "A blade by its program": "Eine Schaufel nach ihrem Programm",
+  "a free form without a drawing on a tilting head": "eine Freiform ohne Zeichnung auf einem Schwenkkopf",
+  "An S-shaped wall": "Eine S-förmige Wand",
+  "what the twist of its rulings costs, and what the machine adds":
+    "was die Verwindung der Regelfläche kostet und was die Maschine dazugibt",
+  "Probe-ball on the Lei-Hsu mill": "Messtaster und Kugel auf der Lei-Hsu-Fräsmaschine",
+  "what the paths of Lei and Hsu 2003 tell, and what they cannot":
+    "was die Messwege von Lei und Hsu 2003 zeigen und was nicht",
+  "Rotary axes in five minutes": "Rundachsen in fünf Minuten",
+  "which touches give most information in the time that there is?":
+    "welche Antastungen sagen in der verfügbaren Zeit am meisten?",
+  "Ball-bar tests of ISO 10791-6": "Ballbar-Prüfungen der ISO 10791-6",
+  "radial, tangential, axial, about both rotary axes": "radial, tangential, axial, um beide Rundachsen",
+  "129 stations: type the readings, drop them, or let a virtual machine read them":
+    "129 Messpositionen: Messwerte eingeben, ablegen oder von einer virtuellen Maschine messen lassen",
+  "Path F, with a true machine": "Messweg F, mit wahrer Maschine",
+  "a machine that is off its file: virtual readings, and what is true":
+    "eine Maschine, die von ihrer Datei abweicht: virtuelle Messwerte, und was wahr ist",
+  "Probe-ball readings": "Messwerte mit Messtaster und Kugel",
+  "eleven location errors of the Lei-Hsu mill": "elf Lagefehler der Lei-Hsu-Fräsmaschine",
+  "Probe-ball at two feeds": "Messtaster und Kugel bei zwei Vorschüben",
+  "standing, 30 and 150 mm/min: geometry and servo apart":
+    "im Stillstand, 30 und 150 mm/min: Geometrie und Antrieb getrennt",
+  "Ball-bar, R-test and laser together": "Ballbar, R-Test und Laser zusammen",
+  "location errors and error motions from three instruments": "Lagefehler und Fehlerbewegungen aus drei Messgeräten",
+  "Frustum rewritten for the gantry": "Kegelstumpf, für die Portalmaschine umgeschrieben",
+  "SINUMERIK, five axes: 97 µm become 0.5 µm, and which words change":
+    "SINUMERIK, fünf Achsen: aus 97 µm werden 0.5 µm, und welche Wörter sich ändern",
+  "An everyday program on the engraving centre": "Ein Alltagsprogramm auf dem Gravierzentrum",
+  "FANUC: drilling, pockets, radius compensation": "FANUC: Bohren, Taschen, Radiuskorrektur",
+  "X axis with a laser": "X-Achse mit einem Laser",
+  "ISO 230-2: positioning with its uncertainty": "ISO 230-2: Positionierung mit ihrer Unsicherheit",
+  "Circle in XY": "Kreis in XY",
+  "ISO 230-4: circular deviations": "ISO 230-4: Kreisabweichungen",
+  "Body diagonals": "Raumdiagonalen",
+  "Spindle that warms up": "Spindel, die sich erwärmt",
+  "ISO 230-3: drift over time": "ISO 230-3: Drift über der Zeit",
+  "Readings against the machine file": "Messwerte gegen die Maschinendatei",
+  "a week after its identification: does the Lei-Hsu mill still agree?":
+    "eine Woche nach ihrer Identifikation: stimmt die Lei-Hsu-Fräsmaschine noch?",
+  "The gantry a year later": "Die Portalmaschine ein Jahr später",
+  "two calibrations: which errors have changed significantly?":
+    "zwei Kalibrierungen: welche Fehler haben sich signifikant geändert?",
+  "Certificate of the tables in a control": "Zertifikat der Tabellen in einer Steuerung",
+  "poses that the determination did not use, and the limit":
+    "Posen, die bei der Bestimmung nicht verwendet wurden, und der Grenzwert",
+  "A laser before and after compensation": "Ein Laser vor und nach der Kompensation",
+  "Zhang et al. 2019: what it reads without, with the machine, with machine and workpiece":
+    "Zhang et al. 2019: was er ohne, mit Maschine, mit Maschine und Werkstück anzeigt",
+  "A frustum on the measuring machine": "Ein Kegelstumpf auf der Messmaschine",
+  "its figures against their tolerances and their prediction":
+    "seine Kennwerte gegen ihre Toleranzen und ihre Vorhersage",
+  "Gantry in a warm hall, live": "Portalmaschine in einer warmen Halle, live",
+  "Zhang et al. 2019 on a FANUC control that is not there: trueaxis live examples/08_live/gantry-mock.toml":
+    "Zhang et al. 2019 an einer FANUC-Steuerung, die es nicht gibt: trueaxis live examples/08_live/gantry-mock.toml",
+};
