@@ -422,6 +422,25 @@ test("bodies in the picture: picked, hidden, cut, measured", async () => {
   await page.selectOption('#tab-describe [data-test="section"]', "X");
   await page.fill('#tab-describe [aria-label="Place of the section"]', "500");
   await picture(page, "describe-section");
+  // A saved view: camera, section and looks; it is there after a reload, and not for another machine.
+  const tools = (rest) => `#tab-describe .scene-panel ${rest}`;
+  await page.click('#tab-describe [aria-label^="Z: look along Z"]');
+  await page.waitForFunction(() => /view=z/.test(location.hash));
+  await page.fill(tools('[aria-label="Name of the view"]'), "table from above");
+  await page.click(tools('button[type="submit"]'));
+  await page.click('#tab-describe [aria-label^="Iso"]');
+  await page.waitForFunction(() => !/view=z/.test(location.hash));
+  await page.selectOption(tools('[data-body="w"]'), "solid");
+  await page.selectOption(tools('[data-test="section"]'), "");
+  await page.reload();
+  await page.waitForSelector("#tab-describe .scene-note.actual");
+  await page.click(tools("summary"));
+  await page.selectOption(tools('[data-test="saved-views"]'), "table from above");
+  await page.waitForFunction(() => /view=z/.test(location.hash));
+  assert.equal(await page.inputValue(tools('[data-body="w"]')), "glass");
+  assert.equal(await page.inputValue(tools('[data-test="section"]')), "X");
+  await page.selectOption('#tab-describe [aria-label="Machine file"]', "machines/xkas2525/machine.toml");
+  await page.waitForFunction(() => document.querySelector('#tab-describe [data-test="saved-views"]').disabled);
   assert.deepEqual(complaints, []);
   await context.close();
 });

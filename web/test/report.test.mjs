@@ -90,3 +90,33 @@ test("a heading stands above the report, and a build with PDF saves one", async 
   }
   assert.deepEqual(complaints, []);
 });
+
+test("a compensation: Report in Compensate takes what was chosen there; in German; also after a reload", async () => {
+  const { page, context, complaints } = await open(browser, server.address);
+  await page.selectOption(".language", "de");
+  await page.waitForFunction(() => document.documentElement.lang === "de");
+  await page.waitForSelector(".card");
+  const program = "examples/06_compensate/everyday-fanuc.nc";
+  const at = `#compensate?of=program&machine=machines/i5-engraver/machine.toml&program=${program}&options=position-only`;
+  await page.goto(new URL(at, server.address).href);
+  await page.waitForSelector("#tab-compensate .figure-svg");
+  await page.click("#tab-compensate .report-link");
+  await made(page);
+  const text = () => page.frameLocator(".report-frame").locator("body").textContent();
+  assert.match(await text(), /everyday-fanuc\.nc, kompensiert für i5 engraving centre/);
+  assert.match(await text(), /nur die Position wird kompensiert/);
+  assert.match(page.url(), /verb=compensate-program.*position_only/);
+  await page.reload();
+  await made(page);
+  assert.match(await text(), /nur die Position wird kompensiert/);
+  // Tables of another control than the first, chosen here.
+  await page.selectOption('[aria-label="Art des Berichts"]', "compensate-tables");
+  await page.selectOption('[data-test="report-file"]', "machines/three-axis-mill/machine.toml");
+  await page.selectOption('.report [aria-label="Steuerung"]', "linuxcnc");
+  await page.click(".report-head .primary");
+  await made(page);
+  await page.waitForFunction(() => document.querySelector("[data-test=report-note]").textContent.includes("tables"));
+  assert.match(await text(), /Tabellen für linuxcnc/);
+  assert.deepEqual(complaints, []);
+  await context.close();
+});

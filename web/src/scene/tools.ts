@@ -7,6 +7,7 @@ import { fixed, NARROW_SPACE } from "../format.ts";
 import { cssColour } from "../theme.ts";
 import type { Bodies, Look } from "./bodies.ts";
 import type { Overlay } from "./overlay.ts";
+import { SavedViews, type ViewParts } from "./savedviews.ts";
 import type { MachineView } from "./view.ts";
 
 const LOOKS: readonly [Look, string][] = [
@@ -61,6 +62,10 @@ export class SceneTools {
     oninput: () => this.section(),
   });
   private readonly other = h("input", { type: "checkbox", onchange: () => this.section() });
+  private readonly views = new SavedViews({
+    capture: () => this.capture(),
+    apply: (parts) => this.apply(parts),
+  });
   private measuring = false;
   private points: Vector3[] = [];
   private line: Line | null = null;
@@ -74,10 +79,11 @@ export class SceneTools {
     const details = h(
       "details",
       { class: "scene-panel" },
-      h("summary", {}, tr`Bodies, section, distance`),
+      h("summary", {}, tr`Bodies, section, distance, views`),
       this.list,
       h("div", { class: "row" }, this.axis, this.place, h("label", { class: "check" }, this.other, tr`other side`)),
       h("div", { class: "row" }, this.measure, this.result),
+      this.views.element,
     );
     details.addEventListener("toggle", () => details.open && this.draw());
     this.element = details;
@@ -86,13 +92,38 @@ export class SceneTools {
     this.element.hidden = true;
   }
 
-  /** Another machine is shown. */
-  clear(): void {
+  /** Another machine is shown; saved views are kept by what it is. */
+  clear(machine: string): void {
     this.element.hidden = this.bodies.names.length === 0;
     this.setMeasuring(false);
     this.axis.value = "";
     this.section();
     this.draw();
+    this.views.show(machine);
+  }
+
+  // ---- saved views ----
+
+  private capture(): ViewParts {
+    return {
+      camera: this.view.viewWords(),
+      section: { axis: this.axis.value, place: this.place.value, other: this.other.checked },
+      looks: Object.fromEntries(this.bodies.names.map((name) => [name, this.bodies.lookOf(name)])),
+    };
+  }
+
+  private apply({ camera, section, looks }: ViewParts): void {
+    this.axis.value = AXES.some((name) => name === section.axis) ? section.axis : "";
+    this.place.value = section.place;
+    this.other.checked = section.other;
+    for (const name of this.bodies.names) {
+      const look = LOOKS.find(([known]) => known === looks[name])?.[0];
+      if (look) this.bodies.setLook(name, look);
+    }
+    this.section();
+    this.draw();
+    this.view.setView(camera);
+    this.view.onView(camera);
   }
 
   /** Presses on the picture that do not turn it. */

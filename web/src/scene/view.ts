@@ -127,7 +127,7 @@ export class MachineView {
     this.layGrid();
     this.showBlock();
     this.showGhost();
-    this.tools.clear();
+    this.tools.clear(identityOf(machine));
     if (!keep_view) {
       this.wanted_view = null;
       this.camera.setView("iso");
@@ -275,6 +275,11 @@ export class MachineView {
   setView(state: string): void {
     this.wanted_view = state;
     if (this.size.width > 1) this.camera.state = state;
+  }
+
+  /** From where it is seen, in words. */
+  viewWords(): string {
+    return this.camera.state;
   }
 
   // ---- poses and deviations ----
@@ -443,3 +448,7 @@ export class MachineView {
     savePng("machine", this.renderer.domElement, this.size.width, this.overlay);
   }
 }
+
+/** Tells machines apart: the chain with its travels. */
+const identityOf = ({ links }: MachineDescription): string =>
+  JSON.stringify(links.map((l) => [l.name, l.travel ?? null]));

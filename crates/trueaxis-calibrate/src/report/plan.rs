@@ -79,7 +79,7 @@ fn path_section<'a>(answer: &PlanReport) -> Section<'a> {
         };
         [path.name.clone(), path.stations.len().to_string(), how, runs, verdict]
     });
-    let table = Table::new(["path", "stations", "readings", "runs", "program"]).rows(rows);
+    let table = Table::new(["path", "stations", "readings", "run time", "program"]).rows(rows);
     Section::new("Paths and their programs").table(table).list(lines)
 }
 

@@ -62,7 +62,7 @@ fn stage_section<'a>(
         let ([x, u], [y, w]) = (shown(stage.before[k]), shown(stage.after[k]));
         [sequence.names[k].clone(), x, u, y, w, unit.to_owned()]
     });
-    let head = ["unknown", "before", "U (k = 2)", "after this stage", "U (k = 2)", ""];
+    let head = ["unknowns", "before", "U (k = 2)", "after this stage", "U (k = 2)", ""];
     let table = Table::new(head).rows(rows).most_on_terminal(usize::MAX);
     Section::new(format!("Stage {number}: {}{date}", stage.name))
         .paragraph(format!("{} numbers read", stage.numbers))

@@ -533,7 +533,7 @@ fn tool_section(s: &Simulation<'_>) -> Section<'static> {
             moves.to_string(),
         ]
     };
-    let table = Table::new(["tool", "name", "length, mm", "diameter, mm", "moves"]);
+    let table = Table::new(["tool", "name", "length, mm", "diameter, mm", "number of moves"]);
     Section::new("Tools").table(table.rows(s.summary.tools.iter().take(MOST_ROWS).map(row)))
 }
 

@@ -159,7 +159,7 @@ fn score_section<'a>(logs: &Logs, model: &ThermalModel) -> Section<'a> {
         "single rows out",
         "whole cycles out",
         "again",
-        "condition",
+        "condition number",
         "sensors",
     ];
     let mut table = Table::new(headings);
