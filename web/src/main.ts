@@ -20,7 +20,8 @@ import { language, loadLanguage } from "./words/index.ts";
 
 startTheme();
 document.documentElement.lang = language();
-await loadLanguage();
+// Without its dictionary the page is English.
+await loadLanguage().catch(console.error);
 // Only now, as constants of its modules hold texts.
 const { App } = await import("./app.ts");
 const root = document.getElementById("app");

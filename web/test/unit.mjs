@@ -290,7 +290,9 @@ const file = `# figures
 "{0} of {1}" = "{0} von {1}"
 "{1} before {0}" = "{0} nach {1}"
 "a \\"quoted\\" text" = "„so“"
-error = "Fehler"`;
+error = "Fehler"
+"tool {0n}" = "Werkzeug {0}"
+"{0}.nc on {1}" = "{0}.nc auf {1}"`;
 const german = lookupOf(entriesOf(file));
 for (const [text, said] of [
   ["3 of 5 points", "3 von 5 Punkten"],
@@ -302,10 +304,13 @@ for (const [text, said] of [
   ["EXX", undefined],
   ["2.5 µm", undefined],
   ["constructor", undefined],
+  ["tool 5", "Werkzeug 5"],
+  ["tool 5.nc", undefined],
+  ["tool 5.nc on mill", "tool 5.nc auf mill"],
 ]) {
   assert.equal(german(text), said, text);
 }
-assert.equal(entriesOf(file).length, 5);
+assert.equal(entriesOf(file).length, 7);
 
 await vite.close();
 console.log("unit checks passed");

@@ -77,7 +77,7 @@ struct ValuesArguments {
     /// Replace the file, also one that this program did not write or that was edited since
     #[arg(long)]
     force: bool,
-    /// The language of the text: en, de (German), zh (Chinese)
+    /// The language of the text on standard output: en, de (German), zh (Chinese); a file stays English
     #[arg(long, default_value = "en", value_parser = tongue, value_name = "LANGUAGE")]
     language: Tongue,
 }

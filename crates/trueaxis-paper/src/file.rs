@@ -68,19 +68,23 @@ impl ReportFile {
         let report = report.in_language(self.language);
         let Printed { bytes, missing } = print(&report, self.form)?;
         if !missing.is_empty() {
-            let place = Place::whole(&self.path.display().to_string());
-            let message = format!("no font has the characters `{missing}`: boxes stand for them");
-            let hint =
-                "install a font that has them, such as Noto Sans CJK, or write an HTML report";
-            problems.warn("missing-glyph", place, message, hint);
+            missing_glyphs(&missing, Place::whole(&self.path.display().to_string()), problems);
         }
         Ok(bytes)
     }
 }
 
+/// Characters that are named: of a report in another script there may be hundreds.
+const MOST_NAMED: usize = 10;
+
 /// Says which characters of a report no font has.
 pub fn missing_glyphs(missing: &str, place: Place, problems: &mut Diagnostics) {
-    let message = format!("no font has the characters `{missing}`: boxes stand for them");
+    let named: String = missing.chars().take(MOST_NAMED).collect();
+    let others = match missing.chars().count().saturating_sub(MOST_NAMED) {
+        0 => String::new(),
+        n => format!(" and {n} more"),
+    };
+    let message = format!("no font has the characters `{named}`{others}: boxes stand for them");
     let hint = "install a font that has them, such as Noto Sans CJK, or write an HTML report";
     problems.warn("missing-glyph", place, message, hint);
 }

@@ -97,8 +97,11 @@ impl Dictionary {
         }
         let fitting = self.sentences.iter().find_map(|(sentence, said)| {
             let values = sentence.fits(english)?;
-            let values: Vec<String> =
-                values.into_iter().map(|value| self.deep(value, depth + 1)).collect();
+            let said_of = |(number, value): (usize, &str)| match sentence.ends_a_name(number) {
+                true => value.to_owned(),
+                false => self.deep(value, depth + 1),
+            };
+            let values: Vec<String> = values.into_iter().enumerate().map(said_of).collect();
             Some(said.with(&values))
         });
         fitting.unwrap_or_else(|| english.to_owned())

@@ -100,6 +100,15 @@ impl Pattern {
         false
     }
 
+    /// Whether the text after the hole of a value is the ending of a file's name, as in `{0}.nc on {1}`.
+    pub(crate) fn ends_a_name(&self, number: usize) -> bool {
+        let texts = self.texts.iter().skip(1).zip(&self.holes);
+        texts.filter(|(_, hole)| hole.number == number).any(|(text, _)| {
+            let mut signs = text.chars();
+            signs.next() == Some('.') && signs.next().is_some_and(char::is_alphabetic)
+        })
+    }
+
     /// The sentence with values in its holes.
     pub(crate) fn with(&self, values: &[String]) -> String {
         let mut said = String::new();
@@ -117,9 +126,24 @@ impl Hole {
         let first = value.trim_start().chars().next();
         match first {
             None => false,
-            Some(sign) => !self.is_numeric || sign.is_ascii_digit() || "+-−–±".contains(sign),
+            Some(_) if !self.is_numeric => true,
+            Some(sign) => (sign.is_ascii_digit() || "+-−–±".contains(sign)) && !names_a_file(value),
         }
     }
+}
+
+/// Whether a letter follows a point, as in `part 5.nc`: a name, of which no word is said in another language.
+pub(crate) fn names_a_file(text: &str) -> bool {
+    let mut characters = text.chars().peekable();
+    let mut before = ' ';
+    while let Some(c) = characters.next() {
+        let after = characters.peek().copied().unwrap_or(' ');
+        if c == '.' && before.is_alphanumeric() && after.is_ascii_alphabetic() {
+            return true;
+        }
+        before = c;
+    }
+    false
 }
 
 #[cfg(test)]
@@ -142,6 +166,7 @@ mod tests {
         assert_eq!(values("{0} of {1n}", "end of part of 5"), Some(vec!["end of part", "5"]));
         assert_eq!(values("{0}.", "."), None);
         assert_eq!(values("a{0}", "b1"), None);
+        assert_eq!(values("tool {0n}", "tool 5.nc"), None);
     }
 
     #[test]

@@ -27,9 +27,20 @@ fn all_languages_have_the_same_texts() {
 #[test]
 fn names_and_numbers_stay() {
     for (_, tongue) in TONGUES {
+        let names = ["tool 5.nc", "part 4.toml", "line 2.csv", "examples/path 3.h"];
+        for text in names {
+            assert_eq!(tongue.text(text), text, "{tongue:?}");
+        }
         for text in ["", "EXX", "2.50 µm", "examples/part.nc", "my machine", "A. Meyer", "G54 X10"]
         {
             assert_eq!(tongue.text(text), text, "{tongue:?}");
         }
     }
+}
+
+#[test]
+fn a_name_in_a_sentence_stays() {
+    let german = Tongue::German;
+    assert_eq!(german.text("tool 5.nc on mill"), "tool 5.nc auf mill");
+    assert_eq!(german.text("part 4.nc compensated for mill"), "part 4.nc, kompensiert für mill");
 }

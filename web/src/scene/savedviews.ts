@@ -50,6 +50,9 @@ export class SavedViews {
     tr`Remove`,
   );
 
+  /** Again, after the picture was turned: the choice alone does not change then. */
+  private readonly again = h("button", { type: "button", disabled: true, onclick: () => this.go() }, tr`Show`);
+
   constructor(picture: Picture) {
     this.picture = picture;
     const form = h("form", { class: "row" }, this.name, this.save);
@@ -57,7 +60,12 @@ export class SavedViews {
       event.preventDefault();
       this.add();
     });
-    this.element = h("div", { class: "scene-views" }, h("div", { class: "row" }, this.choice, this.remove), form);
+    this.element = h(
+      "div",
+      { class: "scene-views" },
+      h("div", { class: "row" }, this.choice, this.again, this.remove),
+      form,
+    );
   }
 
   /** Shows the views of a machine. */
@@ -83,12 +91,12 @@ export class SavedViews {
     );
     this.choice.value = chosen;
     this.choice.disabled = views.length === 0;
-    this.remove.disabled = this.choice.value === "";
+    this.again.disabled = this.remove.disabled = this.choice.value === "";
   }
 
   private go(): void {
     const view = this.views().find(({ name }) => name === this.choice.value);
-    this.remove.disabled = view === undefined;
+    this.again.disabled = this.remove.disabled = view === undefined;
     if (view) this.picture.apply(view);
   }
 

@@ -60,6 +60,8 @@ class CompensateTab implements TabHandle {
   private axes_of: string | null = null;
   private figures: Figure<never>[] = [];
   /** The question that the page shows, or that is under way. */
+  /** What the report of what is shown is asked with. */
+  private report: Record<string, string | null | undefined> | null = null;
   private asked = "";
 
   constructor(host: HTMLElement, app: App) {
@@ -144,6 +146,8 @@ class CompensateTab implements TabHandle {
       this.head,
       formRows(this.app, this.choice, known, (change) => this.go(change)),
     );
+    const button = this.report && reportButton(this.app, this.report);
+    if (button) this.head.append(h("div", { class: "row" }, button));
   }
 
   private clear(): void {
@@ -180,6 +184,7 @@ class CompensateTab implements TabHandle {
     }
     this.fillAxis();
     let asked = JSON.stringify(this.choice);
+    if (asked !== this.asked) this.report = null;
     // Coming back to the tab shows what is there.
     if (asked === this.asked) return;
     this.asked = asked;
@@ -229,8 +234,8 @@ class CompensateTab implements TabHandle {
   private reported(verb: string, files: { file: string | null; machine?: string | null }, body: object): void {
     const named = new Set<unknown>(Object.values(files));
     const options = Object.fromEntries(Object.entries(body).filter(([, value]) => !named.has(value)));
-    const button = reportButton(this.app, { verb, ...files, with: JSON.stringify(options) });
-    if (button) this.head.append(h("div", { class: "row" }, button));
+    this.report = { verb, ...files, with: JSON.stringify(options) };
+    this.showForm();
   }
 
   private async ask(asked: string): Promise<void> {

@@ -312,7 +312,7 @@ class IdentifyTab implements TabHandle {
     if (document.setup.length > 0)
       this.add(
         foundPanel(
-          tr`Set-up`,
+          tr`Set-up of the instruments`,
           document.setup,
           tr`Where balls, sockets and optics really sat: found along with the errors, of no interest afterwards.`,
         ),

@@ -149,7 +149,7 @@ class ReportTab implements TabHandle {
     const stated = STATED.map((key) => [key, params[key] ?? null]);
     this.evaluated = { of: this.readings(), with: Object.fromEntries(stated) };
     this.compensated = { of: this.chosen(), with: params.with ?? "" };
-    const { target } = this.options();
+    const { target } = objectOf(params.with ?? "");
     if (typeof target === "string") this.target.value = target;
     // A link that names its file asks for the report; coming back to the tab does not ask again.
     const asked = this.asked();

@@ -551,7 +551,7 @@ class StandardsTab implements TabHandle {
         h(
           "div",
           { class: "tile", title: tile.title, dataTile: tile.symbol },
-          h("dt", {}, trText(tile.symbol), h("span", { class: "muted tile-word" }, tile.word)),
+          h("dt", {}, tile.symbol, h("span", { class: "muted tile-word" }, tile.word)),
           h(
             "dd",
             {},

@@ -10,6 +10,9 @@ interface Sentence {
   fits: RegExp;
   /** Number of the value in each group. */
   values: number[];
+  /** Groups that are numbers, and groups that are the beginning of a file's name, as in `{0}.nc on {1}`. */
+  numeric: boolean[];
+  named: boolean[];
   /** The translation: texts, and numbers of values. */
   said: (string | number)[];
   weight: number;
@@ -17,6 +20,8 @@ interface Sentence {
 
 /** A value in a value in a value: deeper, texts stay English. */
 const DEEPEST = 4;
+/** A letter follows a point, as in `part 5.nc`: a name, of which no word is said in another language. */
+const FILE = /[\p{L}\d]\.[A-Za-z]/u;
 const HOLE = /\{(\d+)n?\}/;
 
 const unquoted = (text: string): string => JSON.parse(text) as string;
@@ -41,6 +46,8 @@ function sentenceOf(english: string, other: string): Sentence {
   return {
     fits: new RegExp(`^${pattern.join("")}$`, "su"),
     values: holes.map((hole) => Number(HOLE.exec(hole)?.[1])),
+    numeric: holes.map((hole) => hole.endsWith("n}")),
+    named: holes.map((_, i) => /^\.\p{L}/u.test(pieces[2 * i + 2] ?? "")),
     said: other.split(/(\{\d+n?\})/).map((piece, i) => (i % 2 === 0 ? piece : Number(HOLE.exec(piece)?.[1]))),
     weight: pieces.filter((_, i) => i % 2 === 0).join("").length,
   };
@@ -56,12 +63,13 @@ export function lookupOf(entries: readonly (readonly [string, string])[]): Looku
     if (depth > DEEPEST || !/\p{L}/u.test(text)) return undefined;
     const whole = texts.get(text);
     if (whole !== undefined) return whole;
-    for (const { fits, values, said } of sentences) {
+    for (const { fits, values, numeric, named, said } of sentences) {
       const groups = fits.exec(text)?.slice(1);
-      if (!groups) continue;
+      if (!groups || groups.some((group, i) => numeric[i] && FILE.test(group))) continue;
       const inside = (number: number): string => {
-        const value = groups[values.indexOf(number)] ?? "";
-        return find(value, depth + 1) ?? value;
+        const group = values.indexOf(number);
+        const value = groups[group] ?? "";
+        return named[group] ? value : (find(value, depth + 1) ?? value);
       };
       return said.map((piece) => (typeof piece === "string" ? piece : inside(piece))).join("");
     }

@@ -4,6 +4,7 @@ use super::mesh::Mesh;
 use super::scene::{BodyModel, Role};
 use super::shape::triangles_of;
 use super::stl::{read_stl, write_stl};
+use super::triangle::Triangle;
 use std::path::Path;
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_machine::Machine;
@@ -60,8 +61,23 @@ pub fn load_stl(
         let message = "the surface has gaps: it has no inside".to_owned();
         let hint = "bodies that approach the surface are found; bodies that are completely inside from the start are not";
         problems.note("open-surface", Place::whole(&file), message, hint);
+    } else if signed_volume_mm3(&mesh) < 0.0 {
+        let message = "its facets face into the body".to_owned();
+        let hint = "collisions and stock are right all the same; export it again, normals outwards, before it is read elsewhere";
+        problems.note("inward-facets", Place::whole(&file), message, hint);
     }
     Some(mesh)
+}
+
+/// Negative where the facets of a closed surface face inwards.
+fn signed_volume_mm3(mesh: &Mesh) -> f64 {
+    // About the middle, so that a body far from zero loses no digits.
+    let centre = mesh.centre_mm();
+    let volume = |t: &Triangle| {
+        let [a, b, c] = t.map(|corner| corner - centre);
+        a.dot(&b.cross(&c)) / 6.0
+    };
+    mesh.triangles().iter().map(volume).sum()
 }
 
 /// Every model that the machine file describes by numbers, as a name and the bytes of a binary STL
@@ -77,4 +93,45 @@ pub fn export(machine: &Machine) -> Vec<(String, Vec<u8>)> {
         files.push((format!("{:02}-{name}.stl", i + 1), write_stl(&heading, &triangles)));
     }
     files
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::collide::shape::cuboid;
+    use trueaxis_geometry::Vec3;
+    use trueaxis_input::Source;
+
+    /// One file, whatever its name.
+    struct One(Vec<u8>);
+
+    impl Source for One {
+        fn read(&self, _: &Path) -> std::io::Result<Vec<u8>> {
+            Ok(self.0.clone())
+        }
+
+        fn is_file(&self, _: &Path) -> bool {
+            true
+        }
+    }
+
+    fn codes(triangles: &[Triangle]) -> Vec<&'static str> {
+        let files = Files::new(One(write_stl("body", triangles)));
+        let mut problems = Diagnostics::new();
+        assert!(load_stl(&files, Path::new("body.stl"), 1.0, &mut problems).is_some());
+        problems.iter().map(|d| d.code).collect()
+    }
+
+    #[test]
+    fn a_surface_that_faces_inwards_is_said_wherever_it_lies() {
+        for far in [0.0, 1e5] {
+            let move_it = |t: Triangle| t.map(|c| c + Vec3::repeat(far));
+            let outwards: Vec<Triangle> =
+                cuboid(Vec3::new(20.0, 30.0, 40.0)).into_iter().map(move_it).collect();
+            let inwards: Vec<Triangle> = outwards.iter().map(|[a, b, c]| [*a, *c, *b]).collect();
+            assert!(codes(&outwards).is_empty());
+            assert_eq!(codes(&inwards), ["inward-facets"]);
+            assert_eq!(codes(&outwards[1..]), ["open-surface"]);
+        }
+    }
 }

@@ -66,16 +66,20 @@ fn wrapped(out: &mut String, text: &str, mark: &str) {
     let mut line = mark.to_owned();
     let mut is_empty = true;
     for word in text.split_whitespace() {
-        if !is_empty && width(&line) + 1 + width(word) > WIDTH {
-            put(out, &line);
-            line = indent.clone();
-            is_empty = true;
+        // Chinese has no blanks: it is broken between any two signs.
+        for (i, piece) in pieces(word).into_iter().enumerate() {
+            let blank = usize::from(i == 0 && !is_empty);
+            if !is_empty && width(&line) + blank + width(piece) > WIDTH {
+                put(out, &line);
+                line = indent.clone();
+                is_empty = true;
+            }
+            if i == 0 && !is_empty {
+                line.push(' ');
+            }
+            line.push_str(piece);
+            is_empty = false;
         }
-        if !is_empty {
-            line.push(' ');
-        }
-        line.push_str(word);
-        is_empty = false;
     }
     if !is_empty {
         put(out, &line);
@@ -111,9 +115,30 @@ fn write_table(out: &mut String, table: &Table, labels: &Labels) {
     wrapped(out, &table.note, "");
 }
 
-/// Columns on a terminal: the bar above B̄ takes none.
+/// A word in the pieces between which it may be broken: behind each Chinese sign that no punctuation follows.
+fn pieces(word: &str) -> Vec<&str> {
+    let signs: Vec<(usize, char)> = word.char_indices().collect();
+    let mut from = 0;
+    let mut pieces = Vec::new();
+    for pair in signs.windows(2) {
+        let ((_, sign), (at, next)) = (pair[0], pair[1]);
+        if is_wide(sign) && !"，。：；、）！？”".contains(next) {
+            pieces.push(&word[from..at]);
+            from = at;
+        }
+    }
+    pieces.push(&word[from..]);
+    pieces
+}
+
+/// Columns on a terminal: the bar above B̄ takes none, a Chinese sign two.
 fn width(text: &str) -> usize {
-    text.chars().filter(|c| *c != '\u{304}').count()
+    text.chars().map(|c| if c == '\u{304}' { 0 } else { 1 + usize::from(is_wide(c)) }).sum()
+}
+
+/// Chinese signs and their punctuation (Unicode Standard Annex 11, wide and full-width).
+fn is_wide(c: char) -> bool {
+    matches!(c, '\u{2e80}'..='\u{9fff}' | '\u{f900}'..='\u{faff}' | '\u{fe30}'..='\u{fe4f}' | '\u{ff00}'..='\u{ff60}')
 }
 
 #[cfg(test)]
@@ -141,6 +166,17 @@ mod tests {
     fn long_tables_are_cut_and_say_so() {
         let table = Table::new(["n"]).rows((0..5).map(|i| [i.to_string()])).most_on_terminal(2);
         assert_eq!(table_text(&table), "  n\n  0\n  1\n  … and 3 more; --format json has all\n");
+    }
+
+    #[test]
+    fn chinese_stands_in_columns_and_breaks_anywhere_but_before_punctuation() {
+        let table = Table::new(["量", "µm"]).row(["反向误差", "2.50"]).row(["EXX", "-1.00"]);
+        let text = table_text(&table);
+        assert_eq!(text, "  量            µm\n  反向误差    2.50\n  EXX        -1.00\n");
+        let mut out = String::new();
+        wrapped(&mut out, &"偏差，".repeat(40), "");
+        assert!(out.lines().all(|line| width(line) <= WIDTH + 2 && !line.trim().starts_with('，')));
+        assert_eq!(out.lines().count(), 3);
     }
 
     #[test]

@@ -259,6 +259,7 @@ fn made<Q: Question>(question: &Q, job: &Job, frame: Frame) -> Result<Made, Refu
     let Frame { heading, language } = frame;
     let report = || {
         let report = Report { heading: heading.clone(), date: today(), ..answer.report() };
+        let report = unwritten(report);
         report.in_language(language.language())
     };
     let html = print(&report(), Form::Html).map_err(|e| unprinted(&e))?.bytes;
@@ -267,6 +268,18 @@ fn made<Q: Question>(question: &Q, job: &Job, frame: Frame) -> Result<Made, Refu
     }
     let printed = print(&report(), Form::Pdf).map_err(|e| unprinted(&e))?;
     Ok(Made { html, pdf: Some(printed.bytes), missing: printed.missing })
+}
+
+/// The files of an answer are kept for the page, not written: no line says so.
+fn unwritten(mut report: Report<'_>) -> Report<'_> {
+    for line in &mut report.lines {
+        let Some((before, after)) = line.split_once(", written to ") else { continue };
+        let rounding = [", rounded to ", ", not rounded"].iter().find_map(|r| after.rfind(r));
+        if let Some(rest) = rounding.and_then(|at| after.get(at..)) {
+            *line = format!("{before}{rest}");
+        }
+    }
+    report
 }
 
 fn unprinted(error: &PrintError) -> Refusal {

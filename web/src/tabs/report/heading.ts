@@ -19,7 +19,7 @@ const GROUPS: readonly Group[] = [
       field("report", "conditions", tr`Conditions`, tr`20.3 ± 0.2 degC, table empty`),
       field("report", "remarks", tr`Remarks`, tr`before the overhaul of the C axis`),
       field("report", "logo", tr`Logo: SVG, PNG or JPEG beside this file`, "logo.svg"),
-      { ...field("report", "signatures", tr`Signatures, between commas`, "measured, approved"), kind: "texts" },
+      { ...field("report", "signatures", tr`Signatures, between commas`, tr`measured, approved`), kind: "texts" },
     ],
   },
   {
@@ -45,6 +45,6 @@ export function headingForm(): FileForm {
   const note = tr`It stands above the report, with lines for signatures below. A further instrument: edit the file.`;
   return fieldsForm("Heading of reports", note, GROUPS, {
     "report.date": today(),
-    "report.signatures": "measured, approved",
+    "report.signatures": tr`measured, approved`,
   });
 }

@@ -1,6 +1,5 @@
 /** The source of the program: only the lines in sight are in the page, so that 10⁶ lines scroll well. */
 
-import { told } from "../../words/told.ts";
 import { severityWord, tr } from "../../words/index.ts";
 import { fill, h, perFrame, type Child } from "../../dom.ts";
 import { Lines } from "./lines.ts";
@@ -231,8 +230,8 @@ export class SourceList {
       this.tip,
       h("strong", { class: mark.dataset.severity ?? "" }, severityWord(mark.dataset.severity ?? "")),
       " ",
-      told("span", {}, mark.dataset.message ?? ""),
-      mark.dataset.hint ? told("p", { class: "hint" }, mark.dataset.hint) : null,
+      h("span", {}, mark.dataset.message ?? ""),
+      mark.dataset.hint ? h("p", { class: "hint" }, mark.dataset.hint) : null,
     );
     const box = mark.getBoundingClientRect();
     const around = this.element.getBoundingClientRect();

@@ -300,7 +300,8 @@ function rotation(document: EvaluateDocument): Sheet[] {
         tr`once per revolution, µm`,
       ],
       rows: r.motions.map((m) => [
-        trText(m.sensitive),
+        // As a tolerance names it.
+        m.sensitive,
         m.total_um,
         m.synchronous_um,
         m.asynchronous_um,

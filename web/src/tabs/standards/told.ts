@@ -10,7 +10,7 @@ const WITH_VALUES: readonly [RegExp, (first: string, second: string) => string][
   [/^(straightness|flatness|squareness|parallelism) (\(\w+\))$/, (kind, error) => `${trText(kind)} ${error}`],
   [/^Solid circle: nominal, radius (\S+) mm\.$/, (radius) => tr`Solid circle: nominal, radius ${radius} mm.`],
   [/^(\S+) to the right, (\S+) upwards\.$/, (right, up) => tr`${right} to the right, ${up} upwards.`],
-  [/^Every (\d+)th reading is drawn\.$/, (step) => tr`Every ${step}th reading is drawn.`],
+  [/^One reading in (\d+) is drawn\.$/, (step) => tr`One reading in ${step} is drawn.`],
   [
     /^A hit scatters by (.+) \((\S+) degrees of freedom\)\.$/,
     (s, n) => tr`A hit scatters by ${s} (${n} degrees of freedom).`,

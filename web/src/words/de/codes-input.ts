@@ -141,7 +141,7 @@ export const codes: Dictionary = {
   "live-no-pmc": "PMC-Adressen fehlen",
   "bad-pmc-address": "PMC-Adresse unzulässig",
   "bad-address": "Adresse der Steuerung unzulässig",
-  "live-not-enabled": "Freigabe des PMC-Versatzes nicht angegeben",
+  "live-not-enabled": "Freigabe der PMC-Verschiebung nicht angegeben",
   "live-series": "Baureihe der Steuerung nicht dokumentiert",
   "live-no-mock": "Simulierte Steuerung fehlt oder startet nicht",
   "live-not-bound": "Identität der Steuerung nicht angegeben",

@@ -153,7 +153,7 @@ export const server: Dictionary = {
   "FANUC: pitch error compensation and the grid of 3-D error compensation":
     "FANUC: Steigungsfehlerkompensation und Gitter der 3D-Fehlerkompensation",
   "HEIDENHAIN: .COM tables and KinematicsComp": "HEIDENHAIN: .COM-Tabellen und KinematicsComp",
-  "ISG kernel: ISG_CSV and leadscrew lists": "ISG-Kernel: ISG_CSV und Spindelsteigungslisten",
+  "ISG kernel: ISG_CSV and leadscrew lists": "ISG-Kernel: ISG_CSV und Spindelsteigungsfehlerlisten",
   "plain CSV: every axis on every linear axis": "einfache CSV: jede Achse auf jede Linearachse",
   "the work offset, or the tool length and its direction":
     "die Nullpunktverschiebung oder die Werkzeuglänge und ihre Richtung",
@@ -165,7 +165,7 @@ export const server: Dictionary = {
   "a control with cross tables, or the NC program": "eine Steuerung mit Kreuztabellen oder das NC-Programm",
   "the NC program": "das NC-Programm",
   "detection unit 0.1 um and 0.0001 deg (increment system IS-C), magnification 1; the reference position is machine position 0":
-    "Erfassungseinheit 0.1 um und 0.0001 deg (Inkrementsystem IS-C), Vergrößerung 1; die Referenzposition ist die Maschinenposition 0",
+    "Erfassungseinheit 0.1 um und 0.0001 deg (Inkrementsystem IS-C), Vergrößerungsfaktor 1; die Referenzposition ist die Maschinenposition 0",
   "N01850 is what is added at the reference position; with an absolute encoder shift the reference position by it instead":
     "N01850 ist das, was an der Referenzposition addiert wird; bei einem absoluten Messsystem stattdessen die Referenzposition darum verschieben",
   "check the sign with one table and a dial before all are loaded; power off and on, then reference return, before it acts":
@@ -191,7 +191,7 @@ export const server: Dictionary = {
   "the two lines of hochlauf.lis stand as comments at the head of vol_comp_0.lis; logical axis numbers there are 1, 2, … : put in those of the machine":
     "die beiden Zeilen für hochlauf.lis stehen als Kommentare am Anfang von vol_comp_0.lis; logische Achsnummern sind dort 1, 2, … : die der Maschine einsetzen",
   "leadscrew lists: kopf.achs_nr is to be the logical axis number; lr_param.ssfk 1; no other backlash compensation":
-    "Spindelsteigungslisten: kopf.achs_nr muss die logische Achsnummer sein; lr_param.ssfk 1; keine andere Umkehrspielkompensation",
+    "Spindelsteigungsfehlerlisten: kopf.achs_nr muss die logische Achsnummer sein; lr_param.ssfk 1; keine andere Umkehrspielkompensation",
   "check the sign with one axis and a dial before all is switched on: if the tip moves the other way, name the axis in `negate`":
     "das Vorzeichen mit einer Achse und einer Messuhr prüfen, bevor alles eingeschaltet wird: bewegt sich die Werkzeugspitze in die andere Richtung, die Achse in `negate` nennen",
   "location errors stand in the functions of their axis, so X0X … C0C are not to be entered a second time":
@@ -200,7 +200,7 @@ export const server: Dictionary = {
   "positions are machine coordinates after homing; a rotary joint that wraps is compensated within its table only":
     "Positionen sind Maschinenkoordinaten nach der Referenzfahrt; eine endlos drehende Rundachse wird nur innerhalb ihrer Tabelle kompensiert",
   "kinematics.hal, where there is one, after the module of KINEMATICS is loaded and instead of the setp lines of its centres; the part zero is set with it on":
-    "kinematics.hal, wenn vorhanden, nach dem Laden des Moduls von KINEMATICS und anstelle der setp-Zeilen seiner Drehzentren; der Werkstücknullpunkt wird damit eingeschaltet gesetzt",
+    "kinematics.hal, wenn vorhanden, nach dem Laden des Moduls von KINEMATICS und anstelle der setp-Zeilen seiner Drehzentren; der Werkstücknullpunkt wird gesetzt, während sie wirksam ist",
   "MD38000 and MD18342 at least the number of points; they re-format the memory: save the data first":
     "MD38000 und MD18342 mindestens gleich der Anzahl der Punkte; sie formatieren den Speicher neu: vorher die Daten sichern",
   "before loading: MD32700 $MA_ENC_COMP_ENABLE and MD32710 $MA_CEC_ENABLE 0, after it 1; SD41300 $SN_CEC_TABLE_ENABLE[t] = 1":

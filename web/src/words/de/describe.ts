@@ -45,7 +45,7 @@ export const texts: Dictionary = {
   "{0} shown, {1} stated of {2}": "{0} gezeigt, {1} von {2} angegeben",
   "Text of the file": "Text der Datei",
   "The lines of this file end in two ways: edit it with a text editor, or its errors in the table":
-    "Die Zeilen dieser Datei enden auf zwei Arten: mit einem Texteditor bearbeiten, oder die Fehler in der Tabelle",
+    "Die Zeilenenden dieser Datei sind uneinheitlich: mit einem Texteditor bearbeiten oder die Fehler in der Tabelle ändern",
   "line {0}": "Zeile {0}",
   "Undo (Ctrl+Z)": "Rückgängig (Strg+Z)",
   Undo: "Rückgängig",

@@ -9,7 +9,7 @@ export const texts: Dictionary = {
   "saved as {0}": "wird gespeichert als {0}",
   "a date is written 2026-11-28": "ein Datum wird 2026-11-28 geschrieben",
   "{0}: it is needed": "{0}: Angabe erforderlich",
-  "{0}: what it is": "{0}: was das ist",
+  "{0}: what it is": "{0}: Erklärung",
   name: "Name",
   "value ({0})": "Wert ({0})",
   "no travel stated": "kein Verfahrweg angegeben",

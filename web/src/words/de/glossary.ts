@@ -5,7 +5,7 @@ export const texts: Dictionary = {
   "Workpiece w": "Werkstück w",
   "Tool t": "Werkzeug t",
   "Axis {0}": "Achse {0}",
-  What: "Was",
+  What: "Bedeutung",
   Kind: "Art",
   Unit: "Einheit",
   Sign: "Vorzeichen",
@@ -30,7 +30,7 @@ export const texts: Dictionary = {
     "Wie sich der Schlitten von {0} beim Verfahren um {1} dreht. Was weit von der Führung entfernt ist, verschiebt sich um Abstand mal Winkel (Abbe).",
   "angular positioning error of {0}": "Winkelpositionierfehler von {0}",
   "How far {0} has turned from where it was commanded.": "Um wie viel {0} gegenüber dem Sollwinkel verdreht ist.",
-  "tilt error motion of {0} about {1}": "Kippbewegung von {0} um {1}",
+  "tilt error motion of {0} about {1}": "Kippfehlerbewegung von {0} um {1}",
   "How the axis of rotation of {0} tilts about {1} during a turn.":
     "Wie sich die Drehachse von {0} während einer Umdrehung um {1} neigt.",
   "axial error motion of {0}": "axiale Fehlerbewegung von {0}",
@@ -101,11 +101,11 @@ export const texts: Dictionary = {
   "Two straightness runs at different offsets; multi-axis laser.":
     "Zwei Geradheitsmessungen mit verschiedenem Versatz; Mehrachsen-Laser.",
   "Electronic levels, or two straightness runs at different offsets; multi-axis laser.":
-    "Elektronische Neigungsmessgeräte oder zwei Geradheitsmessungen mit verschiedenem Versatz; Mehrachsen-Laser.",
+    "Elektronische Neigungswaagen oder zwei Geradheitsmessungen mit verschiedenem Versatz; Mehrachsen-Laser.",
   "Angular interferometer, autocollimator; a level does not see rotations about the vertical.":
-    "Winkelinterferometer, Autokollimator; ein Neigungsmessgerät erfasst keine Drehung um die Senkrechte.",
+    "Winkelinterferometer, Autokollimator; eine Neigungswaage erfasst keine Drehung um die Senkrechte.",
   "Angular interferometer, autocollimator, electronic levels.":
-    "Winkelinterferometer, Autokollimator, elektronische Neigungsmessgeräte.",
+    "Winkelinterferometer, Autokollimator, elektronische Neigungswaagen.",
   "Polygon and autocollimator, rotary laser calibrator, reference index table. Tests of ISO 230-7 and ISO 230-2.":
     "Spiegelpolygon und Autokollimator, Laser-Drehwinkelkalibrator, Referenzteiltisch. Prüfungen nach ISO 230-7 und ISO 230-2.",
   "Mandrel or two spheres at different heights with displacement sensors (ISO 230-7); R-test with two ball heights.":
@@ -113,9 +113,9 @@ export const texts: Dictionary = {
   "Sphere or mandrel with displacement sensors (ISO 230-7), R-test, ball bar on the turning table.":
     "Kugel oder Prüfdorn mit Wegsensoren (ISO 230-7), R-Test, Ballbar auf dem drehenden Tisch.",
   "Is set to zero by the reference of the axis; seen only against other axes, by a touch probe or an R-test.":
-    "Wird durch den Referenzpunkt der Achse zu null gesetzt; nur gegenüber anderen Achsen erfassbar, mit Messtaster oder R-Test.",
+    "Wird durch den Referenzpunkt der Achse auf null gesetzt; nur gegenüber anderen Achsen erfassbar, mit Messtaster oder R-Test.",
   "Level or dial gauge across the carriage; seen only through the bodies it carries.":
-    "Neigungsmessgerät oder Messuhr quer zum Schlitten; nur über die getragenen Körper erfassbar.",
+    "Neigungswaage oder Messuhr quer zum Schlitten; nur über die getragenen Körper erfassbar.",
   "Square and dial gauge, ball bar in the plane of both axes (ISO 230-4), diagonals (ISO 230-6), straightness interferometer with optical square, grid encoder.":
     "Winkelnormal und Messuhr, Ballbar in der Ebene beider Achsen (ISO 230-4), Diagonalen (ISO 230-6), Geradheitsinterferometer mit Pentaprisma, Kreuzgitter-Messgerät.",
   "R-test, touch probe on a sphere over turns of the table, ball bar with the axis turning (ISO 10791-6), programs of the control for its rotary centres.":

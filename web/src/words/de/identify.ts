@@ -49,7 +49,7 @@ export const texts: Dictionary = {
   "{0} in {1}: {2}. Rank {3}, condition {4}.": "{0}, {1}: {2}. Rang {3}, Konditionszahl {4}.",
   places: "Orte",
   "Not supported by the readings, and left out: {0}.": "Von den Messwerten nicht gestützt und weggelassen: {0}.",
-  "without errors of the machine, set-up only": "ohne Fehler der Maschine, nur Aufspannung",
+  "without errors of the machine, set-up only": "ohne Fehler der Maschine, nur Messaufbau",
   "in sample": "an den verwendeten Messwerten",
   "held out, by place": "an zurückgehaltenen Orten",
   "repeatability, from repeated readings": "Wiederholpräzision, aus wiederholten Messwerten",
@@ -92,6 +92,7 @@ export const texts: Dictionary = {
   "before: without the errors found": "vorher: ohne die gefundenen Fehler",
   "after: residual": "nachher: Restabweichung",
   "Residuals where the machine stood": "Restabweichungen an den Orten, an denen die Maschine stand",
+  "Set-up of the instruments": "Messaufbau",
 };
 
 /** What the server says. */
@@ -116,7 +117,7 @@ export const server: Dictionary = {
   "more remains than noise, and it follows neither the axes nor the time: look at the instrument, at its noise, at conventions":
     "es bleibt mehr als Rauschen, und es folgt weder den Achsen noch der Zeit: Messgerät, sein Rauschen und die Vorzeichenregeln prüfen",
   "stage `{0}` contradicts what was known before: the result is a mean of two set-ups":
-    "Stufe `{0}` widerspricht dem vorher Bekannten: Das Ergebnis ist ein Mittel aus zwei Aufspannungen",
+    "Stufe `{0}` widerspricht dem vorher Bekannten: Das Ergebnis ist ein Mittel aus zwei Messaufbauten",
   arrangement: "Anordnung der Achsen",
   approach: "Anfahrrichtung",
 };

@@ -50,7 +50,7 @@ export const texts: Dictionary = {
   Events: "Ereignisse",
   "The history begins after some ten seconds.": "Der Verlauf beginnt nach etwa zehn Sekunden.",
   "{0}: off by the model, before {1} at most, {2} rms; after {3} at most, {4} rms":
-    "{0}: Abweichung nach dem Modell, vorher höchstens {1}, quadratisches Mittel {2}; nachher höchstens {3}, quadratisches Mittel {4}",
+    "{0}: Abweichung nach dem Modell, vorher höchstens {1}, RMS {2}; nachher höchstens {3}, RMS {4}",
   now: "jetzt",
   "{0}{1}days ago": "vor {0}{1}Tagen",
   "{0}{1}{2} ago": "vor {0}{1}{2}",
@@ -61,7 +61,7 @@ export const texts: Dictionary = {
   "datum-cleared": "Nullpunkt gelöscht",
   "datum-refused": "Nullpunkt abgelehnt",
   part: "Teil",
-  "part-lost": "Teil verloren",
+  "part-lost": "Aufzeichnung lückenhaft",
   "link lost: {0}": "Verbindung verloren: {0}",
   "sensor {0}: {1}": "Sensor {0}: {1}",
   "workpiece sensor {0}: {1}": "Werkstücksensor {0}: {1}",

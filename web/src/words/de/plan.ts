@@ -51,7 +51,7 @@ export const texts: Dictionary = {
   "Expected uncertainty U (k = 2) of lengths": "Zu erwartende Unsicherheit U (k = 2) der Längen",
   "Expected uncertainty U (k = 2) of angles": "Zu erwartende Unsicherheit U (k = 2) der Winkel",
   "Before anybody measures: from the noise of the instrument and the poses alone. Grey: unknowns of the set-up.":
-    "Vor jeder Messung: allein aus dem Rauschen des Messgeräts und den Posen. Grau: Unbekannte der Aufspannung.",
+    "Vor jeder Messung: allein aus dem Rauschen des Messgeräts und den Posen. Grau: Unbekannte des Messaufbaus.",
   " or ": " oder ",
   "What each path sees of 10 µm or 10 µrad, {0}": "Was jeder Messweg von 10 µm oder 10 µrad erfasst, {0}",
   "not seen": "nicht erfasst",

@@ -65,7 +65,7 @@ export const texts: Dictionary = {
   "u, linear": "u, linear",
   "95 % interval": "95-%-Intervall",
   "Compared, µm": "Vergleich, µm",
-  "set up": "eingerichtet",
+  "set up": "Einrichtung",
   "as changed": "wie geändert",
   "as in the study": "wie in der Studie",
   "At every position, µm": "An jeder Position, µm",
@@ -92,7 +92,7 @@ export const texts: Dictionary = {
   "{0}; {1} steps of the tools{2}": "{0}; {1} Schritte der Werkzeuge{2}",
   "by the compensated program: {0} with the zero kept, {1} with it set again":
     "mit dem kompensierten Programm: {0} bei beibehaltenem, {1} bei neu gesetztem Nullpunkt",
-  "{0} machines drawn within u": "{0} Maschinen, im Rahmen von u ausgelost",
+  "{0} machines drawn within u": "{0} Maschinen, im Rahmen von u gezogen",
   "good on {0} of machines": "gut auf {0} der Maschinen",
   "{0}: {1} % of its tolerance": "{0}: {1} % seiner Toleranz",
   "The part as the program of `compensate program` cuts it":
@@ -107,7 +107,7 @@ export const texts: Dictionary = {
   allowed: "zulässig",
   used: "ausgenutzt",
   "the share of machines drawn within u on which it is in tolerance":
-    "Anteil der im Rahmen von u ausgelosten Maschinen, auf denen es in der Toleranz liegt",
+    "Anteil der im Rahmen von u gezogenen Maschinen, auf denen es in der Toleranz liegt",
   "good on": "gut auf",
   "by the compensated program, the zero where it was set before":
     "mit dem kompensierten Programm, Nullpunkt wie zuvor gesetzt",

@@ -55,8 +55,9 @@ export const texts: Dictionary = {
   "Valid until": "Gültig bis",
   "It stands above the report, with lines for signatures below. A further instrument: edit the file.":
     "Er steht über dem Bericht, mit Zeilen für Unterschriften darunter. Ein weiteres Messgerät: die Datei bearbeiten.",
-  "Identify: rotary centres in the control": "Identifizieren: Rundachsmitten in der Steuerung",
+  "Identify: rotary centres in the control": "Identifizieren: Drehzentren in der Steuerung",
   "Compensate: an NC program": "Kompensieren: ein NC-Programm",
   "Compensate: tables of a control": "Kompensieren: Tabellen einer Steuerung",
   "Compensate: a path on a measured blank": "Kompensieren: Bahn auf gemessenem Rohteil",
+  "measured, approved": "gemessen, freigegeben",
 };

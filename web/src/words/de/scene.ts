@@ -12,7 +12,7 @@ export const texts: Dictionary = {
   Fit: "Alles",
   View: "Ansicht",
   "Machine in three dimensions. Arrow keys turn, Shift and arrow keys move, plus and minus zoom, 0 to 3 choose a view.":
-    "Maschine in drei Dimensionen. Pfeiltasten drehen, Umschalt und Pfeiltasten verschieben, Plus und Minus zoomen, 0 bis 3 wählen eine Ansicht.",
+    "Maschine in 3D. Pfeiltasten drehen, Umschalt und Pfeiltasten verschieben, Plus und Minus zoomen, 0 bis 3 wählen eine Ansicht.",
   "Exaggeration of the deviations": "Überhöhung der Abweichungen",
   "actual machine": "Ist-Maschine",
   "Directions of the machine axes": "Richtungen der Maschinenachsen",
@@ -25,14 +25,14 @@ export const texts: Dictionary = {
   "section across {0}": "Schnitt quer zu {0}",
   "Place of the section": "Lage des Schnitts",
   "other side": "andere Seite",
-  "Press on two points; a corner attracts. Esc ends.": "Zwei Punkte anklicken; eine Ecke fängt. Esc beendet.",
+  "Press on two points; a corner attracts. Esc ends.": "Zwei Punkte anklicken; Ecken werden gefangen. Esc beendet.",
   "the second point …": "der zweite Punkt …",
   "{0}{1}mm ({2}; machine frame)": "{0}{1}mm ({2}; Maschinenkoordinatensystem)",
   "How {0} is drawn": "Darstellung: {0}",
   "axis {0}": "Achse {0}",
   "Save the picture as PNG": "Bild als PNG speichern",
   "This browser cannot draw in three dimensions (WebGL is off). All figures and tables work without it.":
-    "Dieser Browser kann nicht in drei Dimensionen zeichnen (WebGL ist aus). Alle Diagramme und Tabellen funktionieren auch ohne.",
+    "Dieser Browser kann nicht in 3D zeichnen (WebGL ist aus). Alle Diagramme und Tabellen funktionieren auch ohne.",
   "grid {0} mm": "Raster {0} mm",
   "Actual machine: true size (×1)": "Ist-Maschine: wahre Größe (×1)",
   "Actual machine: deviations {0}": "Ist-Maschine: Abweichungen {0}",
@@ -43,4 +43,5 @@ export const texts: Dictionary = {
   "Save view": "Ansicht speichern",
   "no saved views": "keine gespeicherten Ansichten",
   "saved views \u2026": "gespeicherte Ansichten …",
+  Show: "Zeigen",
 };

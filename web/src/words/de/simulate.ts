@@ -123,7 +123,7 @@ export const texts: Dictionary = {
   "± {0}, lines {1} apart": "± {0}, Linienabstand {1}",
   "feed in the air": "Luftschnitt",
   "cut from the part": "vom Fertigteil abgetragen",
-  "{0} remain around it": "{0} Aufmaß darum",
+  "{0} remain around it": "{0} verbleiben neben dem Teil",
   Result: "Ergebnis",
   "the machine file states no errors": "die Maschinendatei nennt keine Fehler",
   "machining time": "Bearbeitungszeit",

@@ -6,7 +6,7 @@ export const texts: Dictionary = {
   "Whether the part will be good": "Ob das Teil gut wird",
   "What to measure, and with what uncertainty": "Was zu messen ist und mit welcher Unsicherheit",
   "Readings, station by station, and how well they repeat":
-    "Messwerte, Position für Position, und wie gut sie sich wiederholen",
+    "Messwerte, Messposition für Messposition, und wie gut sie sich wiederholen",
   "What the machine is like, from readings": "Wie die Maschine ist, aus Messwerten",
   "What the control has to add": "Was die Steuerung dazugeben muss",
   "Whether it is as promised, and what has changed": "Ob sie hält, was zugesagt ist, und was sich geändert hat",
@@ -62,7 +62,7 @@ export const texts: Dictionary = {
   "Spindle gauge line above the table at Z = 0, mm": "Bezugsebene der Spindel über dem Tisch bei Z = 0, mm",
   "Spindle gauge line above the place where {0} and C meet at Z = 0, mm":
     "Bezugsebene der Spindel über dem Schnittpunkt von {0} und C bei Z = 0, mm",
-  "Axis of {0} above the table at Z = 0, mm": "Achse von {0} über dem Tisch bei Z = 0, mm",
+  "Axis of {0} above the table at Z = 0, mm": "Drehachse von {0} über dem Tisch bei Z = 0, mm",
   "A, about X": "A, um X",
   "B, about Y": "B, um Y",
   "The axis that tilts": "Die Achse, die schwenkt",
@@ -96,7 +96,7 @@ export const server: Dictionary = {
     "Zhang et al. 2019: Maßstäbe mit Sensoren, ein Werkstück, das wächst",
   "Frustum on the five-axis gantry": "Kegelstumpf auf der Fünfachs-Portalmaschine",
   "SINUMERIK, one turn round the NAS979 piece: 97 µm off, and where":
-    "SINUMERIK, ein Umlauf um das NAS979-Werkstück: 97 µm daneben, und wo",
+    "SINUMERIK, ein Umlauf um das NAS979-Werkstück: 97 µm Abweichung, und wo",
   "Impeller on a gantry": "Laufrad auf einer Portalmaschine",
   "SINUMERIK, tool-centre point, five axes at once": "SINUMERIK, TCP (TRAORI), fünf Achsen simultan",
   "Bangle on the engraving centre": "Armreif auf dem Gravierzentrum",
@@ -122,7 +122,7 @@ export const server: Dictionary = {
   "a free form without a drawing on a tilting head": "eine Freiform ohne Zeichnung auf einem Schwenkkopf",
   "An S-shaped wall": "Eine S-förmige Wand",
   "what the twist of its rulings costs, and what the machine adds":
-    "was die Verwindung der Regelfläche kostet und was die Maschine dazugibt",
+    "was die Verwindung der Regelfläche kostet und was die Maschine hinzufügt",
   "Probe-ball on the Lei-Hsu mill": "Messtaster und Kugel auf der Lei-Hsu-Fräsmaschine",
   "what the paths of Lei and Hsu 2003 tell, and what they cannot":
     "was die Messwege von Lei und Hsu 2003 zeigen und was nicht",
@@ -140,7 +140,7 @@ export const server: Dictionary = {
   "eleven location errors of the Lei-Hsu mill": "elf Lagefehler der Lei-Hsu-Fräsmaschine",
   "Probe-ball at two feeds": "Messtaster und Kugel bei zwei Vorschüben",
   "standing, 30 and 150 mm/min: geometry and servo apart":
-    "im Stillstand, 30 und 150 mm/min: Geometrie und Antrieb getrennt",
+    "im Stillstand, 30 und 150 mm/min: Geometrie und Lageregelung getrennt",
   "Ball-bar, R-test and laser together": "Ballbar, R-Test und Laser zusammen",
   "location errors and error motions from three instruments": "Lagefehler und Fehlerbewegungen aus drei Messgeräten",
   "Frustum rewritten for the gantry": "Kegelstumpf, für die Portalmaschine umgeschrieben",
@@ -151,7 +151,7 @@ export const server: Dictionary = {
   "X axis with a laser": "X-Achse mit einem Laser",
   "ISO 230-2: positioning with its uncertainty": "ISO 230-2: Positionierung mit ihrer Unsicherheit",
   "Circle in XY": "Kreis in XY",
-  "ISO 230-4: circular deviations": "ISO 230-4: Kreisabweichungen",
+  "ISO 230-4: circular deviations": "ISO 230-4: Kreisformabweichungen",
   "Body diagonals": "Raumdiagonalen",
   "Spindle that warms up": "Spindel, die sich erwärmt",
   "ISO 230-3: drift over time": "ISO 230-3: Drift über der Zeit",

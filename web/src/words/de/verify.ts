@@ -76,7 +76,7 @@ export const texts: Dictionary = {
   "Whiskers: ± 2u, about 95 %; both on one scale.": "Unsicherheitsbalken: ± 2u, etwa 95 %; beide im gleichen Maßstab.",
   "Points of part 1, normal deviation in each section":
     "Punkte von Teil 1, Abweichung in Normalenrichtung in jedem Schnitt",
-  "deviation; above 0: material left": "Abweichung; über 0: Werkstoff verblieben",
+  "deviation; above 0: material left": "Abweichung; über 0: Material steht noch",
 };
 
 /** What the server says. */
@@ -102,7 +102,7 @@ export const server: Dictionary = {
   "within U": "innerhalb U",
   "largest |r|/U": "größtes |r|/U",
   "rms nominal: with a machine without errors; the set-up is fitted to both":
-    "RMS Soll-Maschine: mit einer Maschine ohne Fehler; die Aufspannung ist an beide angepasst",
+    "RMS Soll-Maschine: mit einer Maschine ohne Fehler; der Messaufbau ist an beide angepasst",
   "The errors that changed": "Die geänderten Fehler",
   "Effect on the tip": "Wirkung auf die Werkzeugspitze",
   old: "alt",

@@ -41,7 +41,7 @@ export const texts: Dictionary = {
   "--keep-unproved: it is marked in its heading, and has another name":
     "--keep-unproved：在程序头中注明，并使用另一文件名",
   "tables only, no kinematic parameters": "仅补偿表，不用运动学参数",
-  "--no-kinematics: rotary centres and tilts are left to the tables": "--no-kinematics：旋转中心和倾斜由补偿表处理",
+  "--no-kinematics: rotary centres and tilts are left to the tables": "--no-kinematics：回转中心和倾斜由补偿表处理",
   "machine alone, without a part": "仅机床，不含零件",
   "--machine-only: although the workpiece grows and its temperature is not given":
     "--machine-only：即使工件会热膨胀且未给出其温度",
@@ -112,9 +112,9 @@ export const texts: Dictionary = {
   "What the tables cannot represent": "补偿表无法表示的误差",
   "Nothing: all errors of the machine file are in the tables.": "无：机床文件中的全部误差均在补偿表中。",
   "Each alone on the machine: the largest deviation of the tip that is left with the tables. Represented: none.":
-    "机床上仅有该项误差时，使用补偿表后剩余的刀尖最大偏差。已表示：无。",
+    "机床上仅有该项误差时，使用补偿表后剩余的刀尖最大偏差。补偿表已表示：无。",
   "Each alone on the machine: the largest deviation of the tip that is left with the tables. Represented: {0}.":
-    "机床上仅有该项误差时，使用补偿表后剩余的刀尖最大偏差。已表示：{0}。",
+    "机床上仅有该项误差时，使用补偿表后剩余的刀尖最大偏差。补偿表已表示：{0}。",
   "Left with the tables": "使用补偿表后的剩余偏差",
   "Errors left": "剩余误差",
   error: "误差",
@@ -142,14 +142,14 @@ export const texts: Dictionary = {
 /** What the server says. */
 export const server: Dictionary = {
   "SINUMERIK: $AA_ENC_COMP and $AN_CEC": "SINUMERIK：$AA_ENC_COMP 和 $AN_CEC",
-  "FANUC: pitch error compensation and the grid of 3-D error compensation": "FANUC：螺距误差补偿和三维误差补偿网格",
+  "FANUC: pitch error compensation and the grid of 3-D error compensation": "FANUC：螺距误差补偿和 3D 误差补偿的网格",
   "HEIDENHAIN: .COM tables and KinematicsComp": "HEIDENHAIN：.COM 表和 KinematicsComp",
   "ISG kernel: ISG_CSV and leadscrew lists": "ISG 内核：ISG_CSV 和丝杠误差表",
   "plain CSV: every axis on every linear axis": "普通 CSV：每根轴对每根直线轴",
   "the work offset, or the tool length and its direction": "工件偏置，或刀具长度及其方向",
   "the zero of the axis": "轴的零点",
   "the control's kinematic parameters (rotary centres and tilts), or the NC program":
-    "数控系统的运动学参数（旋转中心和倾斜），或 NC 程序",
+    "数控系统的运动学参数（回转中心和倾斜），或 NC 程序",
   "the NC program; a volumetric compensation for the position alone": "NC 程序；仅位置可用空间误差补偿",
   "a control with cross tables, or the NC program": "带交叉补偿表的数控系统，或 NC 程序",
   "the NC program": "NC 程序",
@@ -162,10 +162,10 @@ export const server: Dictionary = {
   "compare PITCH.TXT and PARAM.TXT with files that the control has punched: lines and parameter numbers are those of 16i manuals and of backups of 31i controls, N10000Q0 is not proved":
     "将 PITCH.TXT 和 PARAM.TXT 与数控系统输出的文件比较：行格式和参数号取自 16i 手册及 31i 系统的备份，N10000Q0 未经证实",
   "GRID3D.CSV lists the points of 3-D error compensation (option); its file form is not public: enter the grid with the parameters of the function":
-    "GRID3D.CSV 列出三维误差补偿（选项）的各点；其文件格式未公开：请用该功能的参数输入网格",
+    "GRID3D.CSV 列出 3D 误差补偿（选项）的各点；其文件格式未公开：请用该功能的参数输入网格",
   "straightness compensation is off: the grid contains it": "直线度补偿关闭：网格中已包含",
   "kinematics.csv: the centres belong into the parameters of the 5-axis machine (19700 ff.); their directions stay nominal":
-    "kinematics.csv：旋转中心写入五轴机床参数（19700 起）；其方向保持名义值",
+    "kinematics.csv：回转中心应写入 5 轴机床的参数（19700 起）；其方向保持名义值",
   "head and columns of .COM are those of a TNC 640 as a program of practice writes them; .CMA and COMPTAB have no public form: enter their rows with the table editor of the control":
     ".COM 的表头和列与 TNC 640 一致，按实际使用的程序的写法；.CMA 和 COMPTAB 没有公开格式：请用数控系统的表格编辑器输入各行",
   "BACKLASH holds the values of the negative direction, as in the manual of the MANUALplus 620":
@@ -175,7 +175,7 @@ export const server: Dictionary = {
   "COMPTAB.TXT has the rows that stand in front of each MachAxis of the kinematics table, which has to be in the form with KEY, AXIS, COORD; KinematicsComp is an option":
     "COMPTAB.TXT 包含运动学表中各 MachAxis 之前的行，该表须为带 KEY、AXIS、COORD 的形式；KinematicsComp 为选项",
   "positions are machine positions; location errors stand in the functions of their axis":
-    "位置为机床位置；位置误差写在其所属轴的函数中",
+    "位置为机床位置；位置和方向误差写在其所属轴的函数中",
   "the two lines of hochlauf.lis stand as comments at the head of vol_comp_0.lis; logical axis numbers there are 1, 2, … : put in those of the machine":
     "hochlauf.lis 的两行以注释形式写在 vol_comp_0.lis 开头；其中逻辑轴号为 1、2、…：请换成该机床的轴号",
   "leadscrew lists: kopf.achs_nr is to be the logical axis number; lr_param.ssfk 1; no other backlash compensation":
@@ -183,12 +183,12 @@ export const server: Dictionary = {
   "check the sign with one axis and a dial before all is switched on: if the tip moves the other way, name the axis in `negate`":
     "全部启用之前，先用一根轴和千分表检查符号：若刀尖向相反方向移动，请在 `negate` 中列出该轴",
   "location errors stand in the functions of their axis, so X0X … C0C are not to be entered a second time":
-    "位置误差已写在其所属轴的函数中，因此 X0X … C0C 不得重复输入",
+    "位置和方向误差已写在其所属轴的函数中，因此 X0X … C0C 不得重复输入",
   "COMP_FILE takes the place of BACKLASH of the joint": "COMP_FILE 取代该关节的 BACKLASH",
   "positions are machine coordinates after homing; a rotary joint that wraps is compensated within its table only":
     "位置为回零后的机床坐标；循环计数的旋转关节仅在其补偿表范围内得到补偿",
   "kinematics.hal, where there is one, after the module of KINEMATICS is loaded and instead of the setp lines of its centres; the part zero is set with it on":
-    "kinematics.hal（如有）在加载 KINEMATICS 模块之后使用，取代其旋转中心的 setp 行；工件零点在其生效时设定",
+    "kinematics.hal（如有）在加载 KINEMATICS 模块之后使用，取代其回转中心的 setp 行；工件零点在其生效时设定",
   "MD38000 and MD18342 at least the number of points; they re-format the memory: save the data first":
     "MD38000 和 MD18342 至少为点数；修改会重新格式化存储器：请先备份数据",
   "before loading: MD32700 $MA_ENC_COMP_ENABLE and MD32710 $MA_CEC_ENABLE 0, after it 1; SD41300 $SN_CEC_TABLE_ENABLE[t] = 1":
@@ -235,7 +235,7 @@ export const server: Dictionary = {
   "= machine": "= 机床",
   "- workpiece": "- 工件",
   "= part": "= 零件",
-  remainder: "余量",
+  remainder: "剩余",
   "value ↑": "值 ↑",
   "value ↓": "值 ↓",
   "Why it must not be cut": "不得加工的原因",

@@ -1,7 +1,7 @@
 import type { Dictionary } from "../index.ts";
 
 export const texts: Dictionary = {
-  "All to 0": "全部归零",
+  "All to 0": "全部设为 0",
   Travel: "行程",
   Slider: "滑块",
   Position: "位置",
@@ -24,9 +24,9 @@ export const texts: Dictionary = {
   "Sort in the order of the chain": "按运动链顺序排序",
   Value: "值",
   "Sort by the greatest amount; of a curve its least and greatest value": "按最大绝对值排序；曲线显示其最小值和最大值",
-  "Standard uncertainty, the greatest of a curve. U = 2u (k = 2)": "标准不确定度，曲线取其最大值。U = 2u (k = 2)",
+  "Standard uncertainty, the greatest of a curve. U = 2u (k = 2)": "标准不确定度，曲线取其最大值。U = 2u（k = 2）",
   "Over travel": "沿行程",
-  "Share now": "当前份额",
+  "Share now": "当前贡献量",
   "What it moves the tool tip by at the present position (length). Sort by it":
     "它在当前位置使刀尖移动的大小（合成值）。按此排序",
   "In the file": "文件内容",
@@ -71,7 +71,7 @@ export const texts: Dictionary = {
   "New file": "新文件",
   "In the same folder, tables that the file names are found.": "放在同一文件夹中，才能找到文件所引用的表。",
   "Pages of the machine": "机床的页面",
-  "Direction of the shares": "份额的方向",
+  "Direction of the shares": "贡献量的方向",
   "tool axis": "刀轴",
   "Where it comes from": "偏差来源",
   "Tool tip, as the workpiece sees it": "刀尖（从工件看）",
@@ -79,8 +79,8 @@ export const texts: Dictionary = {
   "Tool tip, on the part at 20 °C": "刀尖（在 20 °C 的零件上）",
   "nominal tip": "名义刀尖",
   "actual tip": "实际刀尖",
-  "Share of every error in the tilt of the tool axis": "各误差在刀轴倾斜中的份额",
-  "Share of every error in {0}": "各误差在 {0} 方向的份额",
+  "Share of every error in the tilt of the tool axis": "各误差对刀轴倾斜的贡献量",
+  "Share of every error in {0}": "各误差在 {0} 方向的贡献量",
   "together {0}": "合成 {0}",
   "sum {0}": "总和 {0}",
   "no error acts here": "此处没有误差起作用",
@@ -134,7 +134,7 @@ export const server: Dictionary = {
   polynomial: "多项式",
   fourier: "傅里叶级数",
   table: "表格",
-  "scale of {0}": "{0} 的测量尺",
+  "scale of {0}": "{0} 的光栅尺",
   "the travel of {0}: a path that leaves it is not detected": "{0} 的行程：无法检出超出行程的轨迹",
   "maximum velocity, acceleration or jerk of {0}: no realistic timing":
     "{0} 的最大速度、加速度或加加速度：时间计算不真实",

@@ -16,7 +16,7 @@ export const texts: Dictionary = {
   bed: "床身",
   workpiece: "工件",
   tool: "刀具",
-  link: "环节",
+  link: "部件",
   "travel (mm or deg)": "行程 (mm 或 deg)",
   "{0}half width of the band ({1})": "{0}带宽之半 ({1})",
   "{0}: {1} to {2} {3}": "{0}：{1} 至 {2} {3}",

@@ -71,12 +71,12 @@ export const texts: Dictionary = {
   "The tool deviates by the same amount.": "刀具产生相同大小的偏差。",
   "The workpiece is displaced: the tool deviates by −{0} in it.": "工件发生偏移：刀具在工件中的偏差为 −{0}。",
   "If {0} carries the tool, the tool deviates by {1} with its levers; if {2} carries the workpiece, by −{3} in the workpiece, whatever the sense of the axis.":
-    "若 {0} 承载刀具，刀具偏差为 {1}（连同力臂的作用）；若 {2} 承载工件，则在工件中的偏差为 −{3}，与轴的正负方向无关。",
+    "若 {0} 承载刀具，刀具偏差为 {1}（含阿贝臂的影响）；若 {2} 承载工件，则在工件中的偏差为 −{3}，与轴的正负方向无关。",
   "Setting the part up: touch probe on the datum surfaces.": "零件找正：用测头测量基准面。",
   "Tool setting probe or presetter; a mandrel and dial gauges at two heights.":
     "对刀测头或对刀仪；检验棒与位于两个高度的千分表。",
   "Laser interferometer, step gauge, comparator scale; a ball bar sees its scale. Tests of ISO 230-2.":
-    "激光干涉仪、步距规、标准线纹尺；球杆仪可测出其比例误差。按 ISO 230-2 检验。",
+    "激光干涉仪、步距规、标准光栅尺；球杆仪可测出其比例误差。按 ISO 230-2 检验。",
   "Straightedge and dial gauge (reversal), straightness interferometer, alignment laser, taut wire; grid encoder.":
     "平尺和千分表（反转法）、直线度干涉仪、准直激光、张紧钢丝；平面光栅。",
   "Two straightness runs at different offsets; multi-axis laser.": "在不同偏距处各测一遍直线度；多自由度激光测量仪。",

@@ -25,7 +25,7 @@ export const texts: Dictionary = {
   "All unknowns are observable with these readings.": "用这些读数，全部未知量均可观测。",
   "Set-up": "装夹设置",
   "Where balls, sockets and optics really sat: found along with the errors, of no interest afterwards.":
-    "球、球座和光学件的实际位置：与误差一并求得，此后不再使用。",
+    "仪器安装：球、球座和光学镜组的实际位置；与误差一并求得，此后不再使用。",
   "Correlation of what was identified": "辨识结果的相关性",
   "not observable": "不可观测",
   "No two unknowns are correlated by more than 0.9.": "没有两个未知量的相关系数超过 0.9。",
@@ -47,12 +47,12 @@ export const texts: Dictionary = {
   "{0} in {1}: {2}. Rank {3}, condition {4}.": "{0}，{1}：{2}。秩 {3}，条件数 {4}。",
   places: "位置",
   "Not supported by the readings, and left out: {0}.": "读数不足以支持，已略去：{0}。",
-  "without errors of the machine, set-up only": "不计机床误差，仅装夹设置",
+  "without errors of the machine, set-up only": "不计机床误差，仅仪器安装",
   "in sample": "拟合所用读数",
   "held out, by place": "留出的读数，按位置",
   "repeatability, from repeated readings": "重复性，由重复读数得出",
   "repeatability, as stated": "重复性，按给定值",
-  "Root mean square of the residuals": "残余偏差的均方根",
+  "Root mean square of the residuals": "残差的均方根",
   Bar: "条形",
   "× noise": "× 噪声",
   "not observable with these readings": "用这些读数不可观测",
@@ -73,43 +73,44 @@ export const texts: Dictionary = {
   "Readings that move the result most": "对结果影响最大的读数",
   leverage: "杠杆值",
   "Cook’s distance": "库克距离",
-  "Whether the residual follows the axes": "残余偏差是否随轴变化",
+  "Whether the residual follows the axes": "残差是否随轴变化",
   "places by": "位置分组依据",
   "share of it, held out, %": "所占份额（留出），%",
   "Above zero: something of the machine is left that the model does not have.": "大于零：机床仍有模型未包含的成分。",
   "None: no reading is farther off than {0} times its standard uncertainty.":
     "无：没有读数的偏离超过其标准不确定度的 {0} 倍。",
-  "From the front, left, above": "从前左上方",
+  "From the front, left, above": "从左前上方",
   "From above": "从上方",
   "From the front": "从前方",
   "From the right": "从右侧",
-  "Magnification of the residuals": "残余偏差的放大倍数",
+  "Magnification of the residuals": "残差的放大倍数",
   "before: without the errors found": "之前：不含求得的误差",
-  "after: residual": "之后：残余偏差",
-  "Residuals where the machine stood": "机床所停位置的残余偏差",
+  "after: residual": "之后：残差",
+  "Residuals where the machine stood": "机床各停留位置的残差",
+  "Set-up of the instruments": "仪器安装",
 };
 
 /** What the server says. */
 export const server: Dictionary = {
-  "this model explains what can be explained": "该模型解释了可解释的全部内容",
+  "this model explains what can be explained": "该模型已解释全部可解释的内容",
   "this model is over-fitted: measure at more places, or seek less": "该模型过拟合：请在更多位置测量，或减少未知量",
   "more remains than noise, and it follows machine XYZ (volumetric): {0n} % of it":
-    "剩余大于噪声，且随机床 XYZ 变化（空间误差）：占 {0n} %",
-  "more remains than noise, and it turns with {0}: {1n} % of it": "剩余大于噪声，且随 {0} 旋转：占 {1n} %",
+    "残差仍大于噪声，且随机床 XYZ 变化（空间误差）：占 {0n} %",
+  "more remains than noise, and it turns with {0}: {1n} % of it": "残差仍大于噪声，且随 {0} 旋转：占 {1n} %",
   'more remains than noise, and {0n} % of it looks like a location error that is not listed: location = "minimal" lists all':
-    '剩余大于噪声，其中 {0n} % 像是未列出的位置和方向误差：location = "minimal" 可列出全部',
+    '残差仍大于噪声，其中 {0n} % 像是未列出的位置和方向误差：location = "minimal" 可列出全部',
   "more remains than noise, and {0n} % of it depends on the direction of approach":
-    "剩余大于噪声，其中 {0n} % 取决于趋近方向",
+    "残差仍大于噪声，其中 {0n} % 取决于趋近方向",
   "more remains than noise, and {0n} % of it drifts with time: return to the first station, warm the machine up":
-    "剩余大于噪声，其中 {0n} % 随时间漂移：请返回首个测点，并预热机床",
+    "残差仍大于噪声，其中 {0n} % 随时间漂移：请返回首个测点，并预热机床",
   "one number does not belong to the others: see the outliers, correct it or delete its row":
     "有一个数值与其他不符：见离群值，请更正或删除该行",
   "{0n} numbers do not belong to the others: see the outliers, correct them or delete their rows":
     "{0n} 个数值与其他不符：见离群值，请更正或删除这些行",
   "more remains than noise, and it follows neither the axes nor the time: look at the instrument, at its noise, at conventions":
-    "剩余大于噪声，且既不随轴也不随时间变化：请检查仪器、其噪声和符号约定",
+    "残差仍大于噪声，且既不随轴也不随时间变化：请检查仪器、其噪声和符号约定",
   "stage `{0}` contradicts what was known before: the result is a mean of two set-ups":
-    "阶段 `{0}` 与之前的结果矛盾：所得结果是两次装夹的平均",
+    "阶段 `{0}` 与之前的结果矛盾：所得结果是两次仪器安装的平均",
   arrangement: "轴的布置",
   approach: "趋近方向",
 };

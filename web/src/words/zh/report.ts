@@ -57,4 +57,5 @@ export const texts: Dictionary = {
   "Compensate: an NC program": "补偿：NC 程序",
   "Compensate: tables of a control": "补偿：数控系统的补偿表",
   "Compensate: a path on a measured blank": "补偿：实测毛坯上的轨迹",
+  "measured, approved": "测量, 批准",
 };

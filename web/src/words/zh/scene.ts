@@ -34,7 +34,7 @@ export const texts: Dictionary = {
   "This browser cannot draw in three dimensions (WebGL is off). All figures and tables work without it.":
     "此浏览器不能进行三维绘图（WebGL 已关闭）。所有图表和表格均可正常使用。",
   "grid {0} mm": "网格 {0} mm",
-  "Actual machine: true size (×1)": "实际机床：真实大小 (×1)",
+  "Actual machine: true size (×1)": "实际机床：真实大小（×1）",
   "Actual machine: deviations {0}": "实际机床：偏差 {0}",
   "Bodies, section, distance, views": "部件、剖切、距离、视图",
   "Saved views": "已保存的视图",
@@ -43,4 +43,5 @@ export const texts: Dictionary = {
   "Save view": "保存视图",
   "no saved views": "没有已保存的视图",
   "saved views \u2026": "已保存的视图 …",
+  Show: "显示",
 };
