@@ -115,7 +115,7 @@ fn write_table(out: &mut String, table: &Table, labels: &Labels) {
     wrapped(out, &table.note, "");
 }
 
-/// A word in the pieces between which it may be broken: behind each Chinese sign that no punctuation follows.
+/// A word in the pieces between which it may be broken: after each Chinese sign that no punctuation follows.
 fn pieces(word: &str) -> Vec<&str> {
     let signs: Vec<(usize, char)> = word.char_indices().collect();
     let mut from = 0;

@@ -154,9 +154,9 @@ export const server: Dictionary = {
   "a control with cross tables, or the NC program": "带交叉补偿表的数控系统，或 NC 程序",
   "the NC program": "NC 程序",
   "detection unit 0.1 um and 0.0001 deg (increment system IS-C), magnification 1; the reference position is machine position 0":
-    "检测单位 0.1 um 和 0.0001 deg（增量系统 IS-C），倍率 1；参考位置为机床位置 0",
+    "检测单位 0.1 um 和 0.0001 deg（增量系统 IS-C），倍率 1；参考点位于机床位置 0",
   "N01850 is what is added at the reference position; with an absolute encoder shift the reference position by it instead":
-    "N01850 是在参考位置叠加的量；使用绝对编码器时，改为将参考位置移动该量",
+    "N01850 是在参考点叠加的量；使用绝对编码器时，改为将参考点移动该量",
   "check the sign with one table and a dial before all are loaded; power off and on, then reference return, before it acts":
     "加载全部补偿表之前，先用一个补偿表和千分表检查符号；断电重启并回参考点后才生效",
   "compare PITCH.TXT and PARAM.TXT with files that the control has punched: lines and parameter numbers are those of 16i manuals and of backups of 31i controls, N10000Q0 is not proved":
