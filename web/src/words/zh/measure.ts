@@ -117,7 +117,7 @@ export const server: Dictionary = {
   "laser-line": "激光，沿线",
   "laser-angle": "激光或电子水平仪，角度",
   "length-tracker": "激光追踪仪，长度",
-  artefact: "平尺或角尺",
+  artefact: "平尺或直角尺",
   "cut-piece": "加工的试件",
   "points-on-plane": "平面上的点",
   "points-on-line": "直线上的点",
