@@ -5,10 +5,11 @@
 //! use trueaxis::files::disk;
 //! use trueaxis::input::Diagnostics;
 //! use trueaxis::questions::{Answer, Predict, ask};
+//! use trueaxis::report::English;
 //! let question = Predict { study: "nas979-on-xkas2525.toml".into(), ..Predict::default() };
 //! let mut problems = Diagnostics::new();
 //! let answer = ask(&question, &disk(), &|_| {}, &mut problems).unwrap();
-//! println!("{}", answer.text());
+//! println!("{}", answer.text(&English));
 //! ```
 
 mod adapt;
