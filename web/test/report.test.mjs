@@ -117,6 +117,16 @@ test("a compensation: Report in Compensate takes what was chosen there; in Germa
   await made(page);
   await page.waitForFunction(() => document.querySelector("[data-test=report-note]").textContent.includes("tables"));
   assert.match(await text(), /Tabellen für linuxcnc/);
+  // From Compensate with another control than the first, and again after a reload.
+  const tables = "#compensate?of=tables&machine=machines/three-axis-mill/machine.toml&target=fanuc";
+  await page.goto(new URL(tables, server.address).href);
+  await page.waitForSelector("#tab-compensate table td");
+  await page.click("#tab-compensate .report-link");
+  await made(page);
+  assert.match(await text(), /Tabellen für fanuc/);
+  await page.reload();
+  await made(page);
+  assert.match(await text(), /Tabellen für fanuc/);
   assert.deepEqual(complaints, []);
   await context.close();
 });
