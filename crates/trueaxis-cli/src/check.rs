@@ -1,6 +1,6 @@
 //! `trueaxis check`: what a machine file describes and what is missing in it.
 
-use crate::door::tongue;
+use crate::door::report_language;
 use crate::output::{Answer, Format, Outcome, report, show};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use trueaxis::input::{Diagnostics, Place};
 use trueaxis::machine::Machine;
 use trueaxis::report::{check_json, check_report, frames_section};
 use trueaxis::simulate::collide::export;
-use trueaxis_words::Tongue;
+use trueaxis_words::ReportLanguage;
 
 /// The machine file to check.
 #[derive(Args)]
@@ -35,8 +35,8 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
     /// The language of the text: en, de (German), zh (Chinese)
-    #[arg(long, default_value = "en", value_parser = tongue, value_name = "LANGUAGE")]
-    language: Tongue,
+    #[arg(long, default_value = "en", value_parser = report_language, value_name = "LANGUAGE")]
+    language: ReportLanguage,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {

@@ -5,13 +5,13 @@ mod program;
 mod tables;
 
 use crate::arguments::MachineArguments;
-use crate::door::{Door, tongue};
+use crate::door::{Door, report_language};
 use crate::output::{self, Outcome};
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use trueaxis::predict::holes::Compensation;
 use trueaxis::questions::{CompensateValues, ValuesForm};
-use trueaxis_words::Tongue;
+use trueaxis_words::ReportLanguage;
 
 /// The form of the compensation.
 #[derive(Args)]
@@ -78,8 +78,8 @@ struct ValuesArguments {
     #[arg(long)]
     force: bool,
     /// The language of the text on standard output: en, de (German), zh (Chinese); a file stays English
-    #[arg(long, default_value = "en", value_parser = tongue, value_name = "LANGUAGE")]
-    language: Tongue,
+    #[arg(long, default_value = "en", value_parser = report_language, value_name = "LANGUAGE")]
+    language: ReportLanguage,
 }
 
 /// Which error is compensated.

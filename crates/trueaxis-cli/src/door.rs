@@ -11,7 +11,7 @@ use trueaxis::input::Diagnostics;
 use trueaxis::questions::{Answer, Content, NewFile, Question, is_finite, may_put};
 use trueaxis::report::refused_json;
 use trueaxis_paper::ReportFile;
-use trueaxis_words::{TONGUES, Tongue};
+use trueaxis_words::{REPORT_LANGUAGES, ReportLanguage};
 
 /// What is shown and written.
 #[derive(Args)]
@@ -32,14 +32,14 @@ pub struct DoorArguments {
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
     /// The language of the text and of the report: en, de (German), zh (Chinese); JSON and tables stay as they are
-    #[arg(long, default_value = "en", value_parser = tongue, value_name = "LANGUAGE")]
-    language: Tongue,
+    #[arg(long, default_value = "en", value_parser = report_language, value_name = "LANGUAGE")]
+    language: ReportLanguage,
 }
 
 /// A language by its code.
-pub fn tongue(code: &str) -> Result<Tongue, String> {
-    let known: Vec<&str> = TONGUES.iter().map(|(code, _)| *code).collect();
-    Tongue::named(code).ok_or_else(|| format!("the languages are {}", known.join(", ")))
+pub fn report_language(code: &str) -> Result<ReportLanguage, String> {
+    let known: Vec<&str> = REPORT_LANGUAGES.iter().map(|(code, _)| *code).collect();
+    ReportLanguage::named(code).ok_or_else(|| format!("the languages are {}", known.join(", ")))
 }
 
 impl DoorArguments {
@@ -61,7 +61,7 @@ pub struct Door<'a> {
     /// Whether files are replaced that this program did not write.
     pub force: bool,
     /// The language of text and report.
-    pub language: Tongue,
+    pub language: ReportLanguage,
 }
 
 impl Door<'_> {

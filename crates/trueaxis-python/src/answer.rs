@@ -8,7 +8,7 @@ use trueaxis::input::Diagnostics;
 use trueaxis::questions::Answer;
 use trueaxis::report::{DrawingError, Report};
 use trueaxis_paper::today;
-use trueaxis_words::Tongue;
+use trueaxis_words::ReportLanguage;
 
 /// An answer of the library, whatever the verb.
 pub type Held = Box<dyn Answer + Send>;
@@ -21,7 +21,7 @@ pub struct NativeAnswer {
     /// Whether its text is that of the report, and not what the command prints.
     reads_as_report: bool,
     /// The language of its text, its page and its pictures.
-    language: Tongue,
+    language: ReportLanguage,
     /// Whether the verdict is "yes", where there is one.
     #[pyo3(get)]
     is_yes: bool,
@@ -42,7 +42,7 @@ impl NativeAnswer {
         let (is_yes, notes) = (answer.is_yes(), answer.notes());
         let in_spite_of_errors = answer.in_spite_of_errors();
         let answer = Mutex::new(answer);
-        let (reads_as_report, language) = (false, Tongue::English);
+        let (reads_as_report, language) = (false, ReportLanguage::English);
         Self {
             answer,
             found,
@@ -61,7 +61,7 @@ impl NativeAnswer {
     }
 
     /// The same in another language.
-    pub fn in_language(self, language: Tongue) -> Self {
+    pub fn in_language(self, language: ReportLanguage) -> Self {
         Self { language, ..self }
     }
 

@@ -14,7 +14,7 @@ use trueaxis::files::{self, noted_disk};
 use trueaxis::input::{Diagnostics, Place};
 use trueaxis::questions::{Answer, Content, NewFile, Question, is_finite, may_put};
 use trueaxis_paper::ReportFile;
-use trueaxis_words::Tongue;
+use trueaxis_words::ReportLanguage;
 
 /// What is read from memory, what is written, and whether what stands there is replaced.
 pub struct Door<'py> {
@@ -22,7 +22,7 @@ pub struct Door<'py> {
     memory: Contents,
     report: Option<PathBuf>,
     heading: Option<PathBuf>,
-    language: Tongue,
+    language: ReportLanguage,
     force: bool,
 }
 
@@ -38,7 +38,7 @@ pub fn ask(
     force: bool,
 ) -> PyResult<NativeAnswer> {
     let (report, heading, language) = report;
-    let Some(language) = Tongue::named(&language) else {
+    let Some(language) = ReportLanguage::named(&language) else {
         let message = format!("no report is written in `{language}`");
         let hint = "the languages are en, de and zh";
         return Err(one(py, "unknown-language", "language", message, hint));
@@ -94,7 +94,7 @@ struct Asked<'a> {
     memory: &'a Contents,
     report: Option<&'a Path>,
     heading: Option<&'a Path>,
-    language: Tongue,
+    language: ReportLanguage,
     force: bool,
 }
 

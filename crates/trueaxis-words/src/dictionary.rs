@@ -39,6 +39,11 @@ impl Dictionary {
     /// assert_eq!(german.text("3 of 5 points"), "3 von 5 Punkten");
     /// assert_eq!(german.text("error of EXX"), "Fehler von EXX");
     /// assert_eq!(german.text("EXX"), "EXX");
+    /// // Of several sentences each is looked up; one that is not known leaves all of them English.
+    /// let file = "\"All is well.\" = \"Alles ist gut.\"\n\"{0n} is left.\" = \"{0} bleibt.\"";
+    /// let german = Dictionary::read(&[("de.toml", file)]).unwrap();
+    /// assert_eq!(german.text("All is well. 5 µm is left."), "Alles ist gut. 5 µm bleibt.");
+    /// assert_eq!(german.text("All is well. Who knows."), "All is well. Who knows.");
     /// ```
     ///
     /// # Errors
@@ -104,7 +109,32 @@ impl Dictionary {
             let values: Vec<String> = values.into_iter().enumerate().map(said_of).collect();
             Some(said.with(&values))
         });
-        fitting.unwrap_or_else(|| english.to_owned())
+        fitting.or_else(|| self.in_sentences(english, depth)).unwrap_or_else(|| english.to_owned())
+    }
+
+    /// Sentences one after the other; none if one of them is not known.
+    fn in_sentences(&self, english: &str, depth: usize) -> Option<String> {
+        let ends = english.match_indices(". ").map(|(at, _)| at + 1);
+        let begins_one = |at: &usize| {
+            let rest = english.get(*at..).unwrap_or_default();
+            rest.trim_start().chars().next().is_some_and(char::is_uppercase)
+        };
+        let ends: Vec<usize> = ends.filter(begins_one).collect();
+        if ends.is_empty() {
+            return None;
+        }
+        let mut said = Vec::new();
+        let mut from = 0;
+        for end in ends.into_iter().chain([english.len()]) {
+            let sentence = english.get(from..end)?.trim();
+            let other = self.deep(sentence, depth + 1);
+            if other == sentence {
+                return None;
+            }
+            said.push(other);
+            from = end;
+        }
+        Some(said.join(" "))
     }
 
     /// How many texts it has.

@@ -5,13 +5,13 @@
 //! dictionary (an index, an axis, a kind of error) is said in the other language too. What is not found stays English: names
 //! of files, of errors and of people are never changed.
 //!
-//! - [`Tongue`]: the languages, as a command or the page names them;
+//! - [`ReportLanguage`]: the languages, as a command or the page names them;
 //! - [`Dictionary`]: the texts of one, found by the English text.
 //!
 //! ```
 //! use trueaxis_report::Language;
-//! use trueaxis_words::Tongue;
-//! let german = Tongue::named("de").unwrap();
+//! use trueaxis_words::ReportLanguage;
+//! let german = ReportLanguage::named("de").unwrap();
 //! assert_eq!(german.text("Warnings"), "Warnungen");
 //! assert_eq!(german.text("my machine"), "my machine");
 //! ```
@@ -28,7 +28,7 @@ use trueaxis_report::Language;
 
 /// A language of reports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Tongue {
+pub enum ReportLanguage {
     /// As the reports are written.
     #[default]
     English,
@@ -39,16 +39,22 @@ pub enum Tongue {
 }
 
 /// The languages with their codes, which HTML and the command line use.
-pub const TONGUES: [(&str, Tongue); 3] =
-    [("en", Tongue::English), ("de", Tongue::German), ("zh", Tongue::Chinese)];
+pub const REPORT_LANGUAGES: [(&str, ReportLanguage); 3] = [
+    ("en", ReportLanguage::English),
+    ("de", ReportLanguage::German),
+    ("zh", ReportLanguage::Chinese),
+];
 
 static GERMAN: LazyLock<Dictionary> = LazyLock::new(|| Dictionary::compiled(GERMAN_FILES));
 static CHINESE: LazyLock<Dictionary> = LazyLock::new(|| Dictionary::compiled(CHINESE_FILES));
 
-impl Tongue {
+impl ReportLanguage {
     /// The language of a code; none for any other than `en`, `de` and `zh`.
     pub fn named(code: &str) -> Option<Self> {
-        TONGUES.iter().find(|(known, _)| *known == code).map(|(_, tongue)| *tongue)
+        REPORT_LANGUAGES
+            .iter()
+            .find(|(known, _)| *known == code)
+            .map(|(_, report_language)| *report_language)
     }
 
     /// As a report takes it.
@@ -70,7 +76,7 @@ impl Tongue {
     }
 }
 
-impl Language for Tongue {
+impl Language for ReportLanguage {
     fn code(&self) -> &str {
         match self {
             Self::English => "en",

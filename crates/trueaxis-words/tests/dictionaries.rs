@@ -2,21 +2,21 @@
 
 use std::collections::BTreeSet;
 use trueaxis_report::Language;
-use trueaxis_words::{TONGUES, Tongue};
+use trueaxis_words::{REPORT_LANGUAGES, ReportLanguage};
 
-fn texts(tongue: Tongue) -> BTreeSet<&'static str> {
-    let dictionary = tongue.dictionary().expect("a dictionary");
+fn texts(report_language: ReportLanguage) -> BTreeSet<&'static str> {
+    let dictionary = report_language.dictionary().expect("a dictionary");
     // One that cannot be read is empty: the example `untranslated` says what is wrong with it.
     assert!(
         !dictionary.is_empty(),
-        "{tongue:?}: cargo run -p trueaxis-words --example untranslated"
+        "{report_language:?}: cargo run -p trueaxis-words --example untranslated"
     );
     dictionary.english().collect()
 }
 
 #[test]
 fn all_languages_have_the_same_texts() {
-    let (german, chinese) = (texts(Tongue::German), texts(Tongue::Chinese));
+    let (german, chinese) = (texts(ReportLanguage::German), texts(ReportLanguage::Chinese));
     let only = |a: &BTreeSet<&'static str>, b: &BTreeSet<&'static str>| -> Vec<&'static str> {
         a.difference(b).copied().collect()
     };
@@ -26,21 +26,21 @@ fn all_languages_have_the_same_texts() {
 
 #[test]
 fn names_and_numbers_stay() {
-    for (_, tongue) in TONGUES {
+    for (_, report_language) in REPORT_LANGUAGES {
         let names = ["tool 5.nc", "part 4.toml", "line 2.csv", "examples/path 3.h"];
         for text in names {
-            assert_eq!(tongue.text(text), text, "{tongue:?}");
+            assert_eq!(report_language.text(text), text, "{report_language:?}");
         }
         for text in ["", "EXX", "2.50 µm", "examples/part.nc", "my machine", "A. Meyer", "G54 X10"]
         {
-            assert_eq!(tongue.text(text), text, "{tongue:?}");
+            assert_eq!(report_language.text(text), text, "{report_language:?}");
         }
     }
 }
 
 #[test]
 fn a_name_in_a_sentence_stays() {
-    let german = Tongue::German;
+    let german = ReportLanguage::German;
     assert_eq!(german.text("tool 5.nc on mill"), "tool 5.nc auf mill");
     assert_eq!(german.text("part 4.nc compensated for mill"), "part 4.nc, kompensiert für mill");
 }

@@ -334,9 +334,7 @@ class CompensateTab implements TabHandle {
 
   private begin(shown: Shown, panels: (HTMLElement | null)[]): void {
     this.clear();
-    // Nothing was written yet; the panel of the files says where it would go.
-    const lines = shown.lines.map((line) => line.replace(/, written to .*?, (?=(not )?rounded)/, ", "));
-    fill(this.result, headPanel({ ...shown, lines }), panels);
+    fill(this.result, headPanel(shown), panels);
   }
 
   private draw({ panel, figures }: Drawn): void {

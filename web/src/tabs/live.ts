@@ -1,10 +1,10 @@
 /** What a live run is doing: state and reason, offsets against their limits, sensors with their age, the last hours. */
 
-import { tr } from "../words/index.ts";
+import { tr, trText } from "../words/index.ts";
 import type { ServeLive, ServeLiveDiagnosed } from "../../types.d.ts";
 import { diagnosticList, type App, type Tab, type TabHandle } from "../app.ts";
 import { fill, h } from "../dom.ts";
-import { ago, compensated, said } from "./live/words.ts";
+import { ago, compensated } from "./live/words.ts";
 import { axesPanel, eventsPanel, sensorsPanel, stateOf, stateWord, tilesOf } from "./live/panels.ts";
 import { Shift } from "./live/shift.ts";
 import { fileSelect, showRefusal } from "./measure/ask.ts";
@@ -156,7 +156,7 @@ class LiveTab implements TabHandle {
       { class: `panel live-state ${tone}`, dataState: last.state },
       h("h1", { dataOwn: "" }, name),
       h("p", { class: "live-word", dataTest: "state" }, word),
-      h("p", { class: "live-reason", dataTest: "reason" }, said(last.reason)),
+      h("p", { class: "live-reason", dataTest: "reason" }, trText(last.reason)),
       h(
         "p",
         { class: "muted" },

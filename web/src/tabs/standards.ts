@@ -19,7 +19,6 @@ import { conditionsForm } from "./standards/conditions.ts";
 import { as, kindOf, STATED, type Circular, type EvaluateDocument } from "./standards/documents.ts";
 import { drawPictures } from "./standards/pictures.ts";
 import { keepInProject } from "./standards/keep.ts";
-import { told } from "./standards/told.ts";
 import { sheetsOf, tilesOf } from "./standards/tables.ts";
 import { takeDropped } from "./start.ts";
 
@@ -519,7 +518,7 @@ class StandardsTab implements TabHandle {
         "section",
         { class: "panel" },
         h("h1", { dataOwn: "" }, document.name ?? file),
-        h("p", { class: "muted", dataTest: "circumstances", dataOwn: "" }, circumstances.map(told).join(" · ")),
+        h("p", { class: "muted", dataTest: "circumstances", dataOwn: "" }, circumstances.map(trText).join(" · ")),
         this.verdict(document),
         this.tiles(document),
         h("p", { class: "muted note", dataTest: "conditions" }, this.conditionsText(document, conditions_file, file)),

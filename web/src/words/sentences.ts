@@ -1,7 +1,7 @@
 /**
  * What the server says, in the language of the page: the dictionaries of its reports (crates/trueaxis-words), with the same
  * rules. `{0}` is any text, `{0n}` one that begins with a number; a value is looked up, too; of two sentences that fit, the
- * one with more letters of its own is taken.
+ * one with more letters of its own is taken. Of several sentences in a row, each is looked up where the whole is not known.
  */
 
 type Lookup = (text: string) => string | undefined;
@@ -53,6 +53,18 @@ function sentenceOf(english: string, other: string): Sentence {
   };
 }
 
+/** Sentences one after the other; nothing if one of them is not known. */
+function inSentences(
+  text: string,
+  depth: number,
+  find: (text: string, depth: number) => string | undefined,
+): string | undefined {
+  const parts = text.split(/(?<=\.) +(?=\p{Lu})/u);
+  if (parts.length < 2) return undefined;
+  const said = parts.map((part) => find(part, depth + 1));
+  return said.includes(undefined) ? undefined : said.join(" ");
+}
+
 /** Looks texts up in dictionaries as `entriesOf` gives them. */
 export function lookupOf(entries: readonly (readonly [string, string])[]): Lookup {
   const texts = new Map(entries);
@@ -73,7 +85,7 @@ export function lookupOf(entries: readonly (readonly [string, string])[]): Looku
       };
       return said.map((piece) => (typeof piece === "string" ? piece : inside(piece))).join("");
     }
-    return undefined;
+    return inSentences(text, depth, find);
   };
   return (text) => {
     if (!known.has(text)) known.set(text, find(text, 0));

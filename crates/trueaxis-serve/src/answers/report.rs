@@ -5,6 +5,7 @@ use super::compensate::{
 };
 use super::evaluate::EvaluateRequest;
 use super::plan::SINUMERIK;
+use super::shown::unwritten;
 use super::simulate_document::SimulateRequest;
 use crate::body::needed;
 use crate::desk::{Desk, Job, KeptReport};
@@ -23,7 +24,7 @@ use trueaxis::questions::{
 };
 use trueaxis::report::{DiagnosticEntry, Report};
 use trueaxis_paper::{Form, Heading, PrintError, missing_glyphs, print, read_heading, today};
-use trueaxis_words::Tongue;
+use trueaxis_words::ReportLanguage;
 
 /// Makes a report.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -140,7 +141,7 @@ impl Request for ReportRequest {
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
         let name = format!("{stem}-{}.html", self.verb.name());
         let mut problems = Diagnostics::new();
-        let language = tongue(self.language.as_deref())?;
+        let language = report_language(self.language.as_deref())?;
         let heading = match &self.heading {
             Some(file) => {
                 let read = read_heading(&disk(), &desk.project.path(file)?, &mut problems);
@@ -165,12 +166,12 @@ impl Request for ReportRequest {
 /// What is around the answer of a report.
 struct Frame {
     heading: Option<Heading>,
-    language: Tongue,
+    language: ReportLanguage,
 }
 
-fn tongue(code: Option<&str>) -> Result<Tongue, Refusal> {
-    let Some(code) = code else { return Ok(Tongue::English) };
-    Tongue::named(code).ok_or_else(|| {
+fn report_language(code: Option<&str>) -> Result<ReportLanguage, Refusal> {
+    let Some(code) = code else { return Ok(ReportLanguage::English) };
+    ReportLanguage::named(code).ok_or_else(|| {
         let message = format!("no report is written in `{code}`");
         Refusal::new(422, "unknown-language", message, "the languages are en, de and zh")
     })
@@ -258,8 +259,8 @@ fn made<Q: Question>(question: &Q, job: &Job, frame: Frame) -> Result<Made, Refu
     let answer = ask(question, job)?.0;
     let Frame { heading, language } = frame;
     let report = || {
-        let report = Report { heading: heading.clone(), date: today(), ..answer.report() };
-        let report = unwritten(report);
+        let report = unwritten(answer.report());
+        let report = Report { heading: heading.clone(), date: today(), ..report };
         report.in_language(language.language())
     };
     let html = print(&report(), Form::Html).map_err(|e| unprinted(&e))?.bytes;
@@ -268,18 +269,6 @@ fn made<Q: Question>(question: &Q, job: &Job, frame: Frame) -> Result<Made, Refu
     }
     let printed = print(&report(), Form::Pdf).map_err(|e| unprinted(&e))?;
     Ok(Made { html, pdf: Some(printed.bytes), missing: printed.missing })
-}
-
-/// The files of an answer are kept for the page, not written: no line says so.
-fn unwritten(mut report: Report<'_>) -> Report<'_> {
-    for line in &mut report.lines {
-        let Some((before, after)) = line.split_once(", written to ") else { continue };
-        let rounding = [", rounded to ", ", not rounded"].iter().find_map(|r| after.rfind(r));
-        if let Some(rest) = rounding.and_then(|at| after.get(at..)) {
-            *line = format!("{before}{rest}");
-        }
-    }
-    report
 }
 
 fn unprinted(error: &PrintError) -> Refusal {

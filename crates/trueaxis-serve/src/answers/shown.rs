@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis::questions::Answer;
-use trueaxis::report::{Item, Section, Table, Verdict};
+use trueaxis::report::{Item, Report, Section, Table, Verdict};
 
 /// A report of the command line without its pictures.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -68,7 +68,7 @@ const MOST_ROWS: usize = 2000;
 impl ShownEntry {
     /// What an answer says.
     pub(super) fn of(answer: &impl Answer) -> Self {
-        let report = answer.report();
+        let report = unwritten(answer.report());
         Self {
             title: report.title,
             lines: report.lines,
@@ -113,4 +113,16 @@ impl ShownItem {
             note,
         }
     }
+}
+
+/// The files of an answer are kept for the page, not written: no line says so.
+pub(super) fn unwritten(mut report: Report<'_>) -> Report<'_> {
+    for line in &mut report.lines {
+        let Some((before, after)) = line.split_once(", written to ") else { continue };
+        let rounding = [", rounded to ", ", not rounded"].iter().find_map(|r| after.rfind(r));
+        if let Some(rest) = rounding.and_then(|at| after.get(at..)) {
+            *line = format!("{before}{rest}");
+        }
+    }
+    report
 }

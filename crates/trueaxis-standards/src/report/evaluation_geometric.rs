@@ -153,7 +153,7 @@ pub(super) fn contents(g: &Geometric) -> Contents {
     let mut results = vec![(title, quantities(g))];
     if !g.closures.is_empty() {
         let rows = g.closures.iter().map(|c| [c.line.clone(), cell(Some(c.largest_mm), 1e3)]);
-        let table = Table::new(["line", "changed by the closure, at most, µm"]).rows(rows);
+        let table = Table::new(["measured line", "changed by the closure, at most, µm"]).rows(rows);
         results.push(("Closure errors, shared out by least squares".to_owned(), table));
     }
     let rows = g.lines.iter().flat_map(|line| {
@@ -161,7 +161,7 @@ pub(super) fn contents(g: &Geometric) -> Contents {
             .iter()
             .map(|[x, h]| [line.name.clone(), format!("{x:.3}"), cell(Some(*h), 1e3)])
     });
-    let lines = Table::new(["line", "position, mm", "deviation, µm"]).rows(rows);
+    let lines = Table::new(["measured line", "position, mm", "deviation, µm"]).rows(rows);
     let rows = g
         .surface_mm
         .iter()

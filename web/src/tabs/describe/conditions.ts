@@ -1,11 +1,10 @@
 /** Under which conditions the pose is taken: the tool in the spindle, and what the sensors say. */
 
-import { tr } from "../../words/index.ts";
+import { tr, trText } from "../../words/index.ts";
 import type { Sensor, ToolEntry, ToolShape } from "../../api.ts";
 import { numberIn, type Params } from "../../address.ts";
 import { fill, h } from "../../dom.ts";
 import { positionsOf } from "./axes.ts";
-import { namedText } from "./words.ts";
 
 export interface Conditions {
   /** null: the tool of the machine file. */
@@ -135,7 +134,7 @@ export class ConditionFields {
         "tr",
         {},
         h("td", {}, h("code", {}, sensor.name)),
-        h("td", { class: "muted" }, sensor.drives.map(namedText).join(", ")),
+        h("td", { class: "muted" }, sensor.drives.map(trText).join(", ")),
         h("td", { class: "number" }, box, h("span", { class: "unit" }, "°C")),
       );
     });

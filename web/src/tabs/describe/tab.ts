@@ -1,6 +1,6 @@
 /** The Describe tab: holds the drafts of machine files together with what the server says of them. */
 
-import { tr } from "../../words/index.ts";
+import { tr, trText } from "../../words/index.ts";
 import { diagnosticList, split, type App, type TabHandle } from "../../app.ts";
 import { latestOnly, Refusal, type Description, type Diagnostic, type PoseHeader } from "../../api.ts";
 import type { Params } from "../../address.ts";
@@ -20,7 +20,6 @@ import { Head } from "./head.ts";
 import { editKey } from "./keys.ts";
 import { pages } from "./pages.ts";
 import { PosePanels } from "./pose.ts";
-import { namedText } from "./words.ts";
 
 export class DescribeTab implements TabHandle {
   private readonly app: App;
@@ -441,7 +440,7 @@ export class DescribeTab implements TabHandle {
             h(
               "ul",
               { class: "lacks" },
-              lacks.map((text) => h("li", {}, namedText(text))),
+              lacks.map((text) => h("li", {}, trText(text))),
             ),
           ]
         : null,

@@ -1,6 +1,6 @@
 /** The names of errors in the words of ISO 230-1. */
 
-import { tr, trText } from "../../words/index.ts";
+import { tr } from "../../words/index.ts";
 import type { ErrorEntry, Link } from "../../api.ts";
 
 /** The letter of the axis of coordinates that a direction lies along; null if along none. */
@@ -41,12 +41,6 @@ export function errorWords(error: ErrorEntry, links: readonly Link[]): string {
   const component = error.name[1] ?? "";
   if (!link) return error.kind;
   return error.kind === "motion" ? motionWords(component, link) : locationWords(component, link);
-}
-
-/** What the server says of axes or errors: their names stand at the {0} of the text that the dictionary has. */
-export function namedText(text: string): string {
-  const names = /\b[A-Z][A-Z0-9]*[wt]?(?: [A-Z][A-Z0-9]*[wt]?)*\b/.exec(text)?.[0];
-  return names === undefined ? trText(text) : trText(text.replace(names, "{0}")).replace("{0}", names);
 }
 
 /** "um" -> "µm", as numbers are shown. */

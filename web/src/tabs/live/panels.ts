@@ -1,10 +1,10 @@
 /** The parts of the Live tab that show one moment. */
 
-import { tr } from "../../words/index.ts";
+import { tr, trText } from "../../words/index.ts";
 import type { LiveAxisEntry, LiveEventEntry, LiveState } from "../../../types.d.ts";
 import { h } from "../../dom.ts";
 import { NARROW_SPACE, NO_NUMBER, number, withUnit } from "../../format.ts";
-import { ago, eventWord, said, unitOf } from "./words.ts";
+import { ago, eventWord, unitOf } from "./words.ts";
 
 export type Tone = "good" | "warn" | "bad" | "off";
 
@@ -184,7 +184,7 @@ export function sensorsPanel(last: LiveState): HTMLElement | null {
             h("td", {}, sensor.sensor),
             h("td", { class: "number" }, withUnit(sensor.celsius, 2, "°C")),
             h("td", { class: "number" }, withUnit(sensor.age_s, 1, "s")),
-            h("td", {}, sensor.fault ? said(sensor.fault) : sensor.instead ? tr`${sensor.instead} stands in` : ""),
+            h("td", {}, sensor.fault ? trText(sensor.fault) : sensor.instead ? tr`${sensor.instead} stands in` : ""),
           ),
         ),
       ),
@@ -216,7 +216,7 @@ export function eventsPanel(events: readonly LiveEventEntry[], now_s: number): H
                 ago(now_s - event.date_s),
               ),
               h("td", {}, eventWord(event.state)),
-              h("td", {}, said(event.reason)),
+              h("td", {}, trText(event.reason)),
             ),
           ),
       ),

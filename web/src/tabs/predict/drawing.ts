@@ -6,7 +6,6 @@ import { fill, h } from "../../dom.ts";
 import { number } from "../../format.ts";
 import type { Frame } from "../../frame.ts";
 import { withErrorNames } from "../../glossary/glossary.ts";
-import { asCharacteristic } from "./characteristic.ts";
 import { DeviationMap } from "./deviationmap.ts";
 import { studyChoice } from "./summary.ts";
 import { VERDICTS, type CharacteristicValue, type CutPoint, type DrawingHeader, type Verdict } from "./types.ts";
@@ -74,7 +73,7 @@ export class Drawing {
       h(
         "span",
         { class: "verdict-worst", dataTest: "worst" },
-        tr`${asCharacteristic(nearest)}: ${number(100 * nearest.used_ratio, 0)} % of its tolerance`,
+        tr`${trText(nearest.name)}: ${number(100 * nearest.used_ratio, 0)} % of its tolerance`,
       ),
       document.outcome === "pass"
         ? null
@@ -110,7 +109,7 @@ export class Drawing {
       h(
         "tr",
         { class: i === this.chosen ? "judged" : "", dataSet: value.name, onclick: () => this.pick(document, value, i) },
-        h("td", {}, h("button", { class: "link" }, asCharacteristic(value))),
+        h("td", {}, h("button", { class: "link" }, trText(value.name))),
         h("td", { class: "number", dataCell: "value" }, number(1e3 * value.value_mm, 2)),
         h("td", { class: "number muted", dataCell: "u" }, number(1e3 * value.u_mm, 2)),
         h("td", { class: "number muted" }, number(1e3 * value.points_mm, 2)),
@@ -182,7 +181,7 @@ export class Drawing {
   private showBudget(value: CharacteristicValue): void {
     fill(
       this.budget,
-      h("div", { class: "panel-head" }, h("h2", {}, tr`Errors in ${asCharacteristic(value)}, in µm`)),
+      h("div", { class: "panel-head" }, h("h2", {}, tr`Errors in ${trText(value.name)}, in µm`)),
       h(
         "table",
         { class: "hole-sets" },

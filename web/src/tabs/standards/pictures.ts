@@ -13,7 +13,6 @@ import {
 } from "../../figure/index.ts";
 import { h } from "../../dom.ts";
 import type { Frame } from "../../frame.ts";
-import { told } from "./told.ts";
 
 type Slice = [first: number, count: number];
 
@@ -48,7 +47,7 @@ function seriesOf(picture: ScatterPicture, { line, points }: Arrays): Series[] {
     const colour = colourOf(band.colour);
     const half = column(line, band.line, 3, 2);
     series.push({
-      name: told(band.label),
+      name: trText(band.label),
       colour,
       x: column(line, band.line, 3, 0),
       y: column(line, band.line, 3, 1),
@@ -56,7 +55,7 @@ function seriesOf(picture: ScatterPicture, { line, points }: Arrays): Series[] {
     });
     if (band.points[1] > 0)
       series.push({
-        name: tr`${told(band.label)}, readings`,
+        name: tr`${trText(band.label)}, readings`,
         quiet: true,
         colour,
         line: false,
@@ -79,7 +78,7 @@ function seriesOf(picture: ScatterPicture, { line, points }: Arrays): Series[] {
 function chartSpec(picture: ScatterPicture, arrays: Arrays): ChartSpec {
   const series = seriesOf(picture, arrays);
   const spec: ChartSpec = {
-    title: told(picture.title),
+    title: trText(picture.title),
     x: { ...axisOf(picture.x), digits: 1 },
     y: axisOf(picture.y),
     series,
@@ -101,12 +100,12 @@ function polarSpec(
   circle: { radius_mm?: number; axes?: [string, string] },
 ): PolarSpec {
   return {
-    title: told(picture.title),
+    title: trText(picture.title),
     unit: "µm",
     height: 560,
     ...circle,
     series: picture.lines.map((one) => ({
-      name: told(one.label),
+      name: trText(one.label),
       colour: colourOf(one.colour),
       angle_rad: column(points, one.points, 2, 0),
       deviation: column(points, one.points, 2, 1),
@@ -129,7 +128,7 @@ export function drawPictures(
       picture.kind === "polar"
         ? polar(panel, polarSpec(picture, arrays, circle))
         : lineChart(panel, chartSpec(picture, arrays));
-    if (picture.note) panel.append(h("p", { class: "muted note" }, told(picture.note)));
+    if (picture.note) panel.append(h("p", { class: "muted note" }, trText(picture.note)));
     return drawn as Figure<never>;
   });
 }

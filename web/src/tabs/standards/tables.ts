@@ -13,7 +13,6 @@ import {
   type Positioning,
   type Rotation,
 } from "./documents.ts";
-import { told } from "./told.ts";
 
 type ReportTable = ServeEvaluate["figures"][number];
 
@@ -321,11 +320,11 @@ function sheetOf(table: ReportTable, key: string): Sheet {
   const cells = rows.map((row) => row.map((cell, j) => (VERDICTS.includes(headings[j] ?? "") ? trText(cell) : cell)));
   return {
     key,
-    title: told(title),
-    head: headings.map(told),
+    title: trText(title),
+    head: headings.map(trText),
     rows: cells,
     words,
-    ...(note ? { note: told(note) } : {}),
+    ...(note ? { note: trText(note) } : {}),
   };
 }
 

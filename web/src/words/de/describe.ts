@@ -141,14 +141,4 @@ export const server: Dictionary = {
   fourier: "Fourier-Reihe",
   table: "Tabelle",
   "scale of {0}": "Maßstab von {0}",
-  "the travel of {0}: a path that leaves it is not detected":
-    "der Verfahrweg von {0}: Eine Bahn, die ihn verlässt, wird nicht erkannt",
-  "maximum velocity, acceleration or jerk of {0}: no realistic timing":
-    "Höchstgeschwindigkeit, Beschleunigung oder Ruck von {0}: keine realistischen Zeiten",
-  "models of its bodies: collisions are not detected": "Modelle der Körper: Kollisionen werden nicht erkannt",
-  "the length of the tool, taken as 0": "die Länge des Werkzeugs, als 0 angenommen",
-  "errors: the actual machine is the nominal one": "Fehler: Die Ist-Maschine ist die Soll-Maschine",
-  "location errors (squareness, offsets) of {0}": "Lagefehler (Rechtwinkligkeit, Versatz) von {0}",
-  "error motions, taken as 0: {0}": "Fehlerbewegungen, als 0 angenommen: {0}",
-  "standard uncertainties, taken as 0: {0}": "Standardunsicherheiten, als 0 angenommen: {0}",
 };

@@ -39,8 +39,3 @@ export const texts: Dictionary = {
   "{0}, {1}, over time. Arrow keys move the cursor, Enter goes there, plus and minus zoom.":
     "{0}, {1}, über der Zeit. Pfeiltasten bewegen die Marke, Enter geht dorthin, Plus und Minus zoomen.",
 };
-
-/** What the server says. */
-export const server: Dictionary = {
-  unlimited: "unbegrenzt",
-};

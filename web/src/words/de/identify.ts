@@ -97,27 +97,6 @@ export const texts: Dictionary = {
 
 /** What the server says. */
 export const server: Dictionary = {
-  "this model explains what can be explained": "dieses Modell erklärt, was sich erklären lässt",
-  "this model is over-fitted: measure at more places, or seek less":
-    "dieses Modell ist überangepasst: an mehr Orten messen oder weniger Unbekannte suchen",
-  "more remains than noise, and it follows machine XYZ (volumetric): {0n} % of it":
-    "es bleibt mehr als Rauschen, und es folgt X, Y, Z der Maschine (volumetrisch): {0n} % davon",
-  "more remains than noise, and it turns with {0}: {1n} % of it":
-    "es bleibt mehr als Rauschen, und es dreht sich mit {0}: {1n} % davon",
-  'more remains than noise, and {0n} % of it looks like a location error that is not listed: location = "minimal" lists all':
-    'es bleibt mehr als Rauschen, und {0n} % davon sehen aus wie ein Lagefehler, der nicht aufgeführt ist: location = "minimal" führt alle auf',
-  "more remains than noise, and {0n} % of it depends on the direction of approach":
-    "es bleibt mehr als Rauschen, und {0n} % davon hängen von der Anfahrrichtung ab",
-  "more remains than noise, and {0n} % of it drifts with time: return to the first station, warm the machine up":
-    "es bleibt mehr als Rauschen, und {0n} % davon driften mit der Zeit: zur ersten Messposition zurückkehren, Maschine warmlaufen lassen",
-  "one number does not belong to the others: see the outliers, correct it or delete its row":
-    "eine Zahl passt nicht zu den anderen: siehe Ausreißer, berichtigen oder ihre Zeile löschen",
-  "{0n} numbers do not belong to the others: see the outliers, correct them or delete their rows":
-    "{0n} Zahlen passen nicht zu den anderen: siehe Ausreißer, berichtigen oder ihre Zeilen löschen",
-  "more remains than noise, and it follows neither the axes nor the time: look at the instrument, at its noise, at conventions":
-    "es bleibt mehr als Rauschen, und es folgt weder den Achsen noch der Zeit: Messgerät, sein Rauschen und die Vorzeichenregeln prüfen",
-  "stage `{0}` contradicts what was known before: the result is a mean of two set-ups":
-    "Stufe `{0}` widerspricht dem vorher Bekannten: Das Ergebnis ist ein Mittel aus zwei Messaufbauten",
   arrangement: "Anordnung der Achsen",
   approach: "Anfahrrichtung",
 };

@@ -127,11 +127,4 @@ export const server: Dictionary = {
   "points-on-circle": "Punkte auf Kreis",
   "points-on-sphere": "Punkte auf Kugel",
   "points-on-cylinder": "Punkte auf Zylinder",
-  hit: "Antastung",
-  "measured on {0} of [truth], seed {1n}: virtual readings":
-    "gemessen an {0} aus [truth], Startwert {1n}: virtuelle Messwerte",
-  "measured on {0}, seed {1n}: virtual readings": "gemessen an {0}, Startwert {1n}: virtuelle Messwerte",
-  "paths: {0n}, readings: {1n}, lost: {2n}, time: {3n} min {4n} s":
-    "Messwege: {0n}, Messwerte: {1n}, verloren: {2n}, Zeit: {3n} min {4n} s",
-  "Readings less nominal": "Messwerte minus Sollwert",
 };

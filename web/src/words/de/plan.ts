@@ -70,9 +70,3 @@ export const texts: Dictionary = {
   "Save {0}": "{0} speichern",
   "Programs and tables of poses": "Programme und Posentabellen",
 };
-
-/** What the server says. */
-export const server: Dictionary = {
-  "hits cannot be written for {0}: its probing cycles move X, Y and Z, and this machine touches by other axes; choose another control, or take the table of poses":
-    "für {0} können keine Antastungen geschrieben werden: Die Messzyklen bewegen X, Y und Z, diese Maschine tastet mit anderen Achsen an; eine andere Steuerung wählen oder die Posentabelle nehmen",
-};

@@ -191,13 +191,6 @@ export const texts: Dictionary = {
 /** What the server says. */
 export const server: Dictionary = {
   // The verdict.
-  "NOT COMPLETE": "UNVOLLSTÄNDIG",
-  "NOT POSSIBLE": "NICHT MÖGLICH",
-  "NO ISSUES": "KEINE BEANSTANDUNG",
-  SLOWER: "LANGSAMER",
-  "NO SET-UP": "KEINE AUFSPANNUNG",
-  CRITICAL: "KRITISCH",
-  "no issue found that endangers part or machine": "nichts gefunden, was Teil oder Maschine gefährdet",
   // Kinds of critical issues.
   collision: "Kollision",
   "rapid in stock": "Eilgang im Rohteil",
@@ -211,10 +204,6 @@ export const server: Dictionary = {
   "Deviation of the tip along the binormal": "Abweichung der Spitze längs der Binormalen",
   "Deviation of the tool axis": "Abweichung der Werkzeugachse",
   // What a block does besides its moves.
-  "tilted plane on": "geschwenkte Ebene ein",
-  "tilted plane off": "geschwenkte Ebene aus",
-  "work offset that goes round with the table on": "mit dem Tisch mitdrehende Nullpunktverschiebung ein",
-  "work offset that goes round with the table off": "mit dem Tisch mitdrehende Nullpunktverschiebung aus",
   // Of notes on lines of the program: see severityWord.
   "severity error": "Fehler",
   "severity warning": "Warnung",

@@ -135,13 +135,4 @@ export const server: Dictionary = {
   fourier: "傅里叶级数",
   table: "表格",
   "scale of {0}": "{0} 的光栅尺",
-  "the travel of {0}: a path that leaves it is not detected": "{0} 的行程：无法检出超出行程的轨迹",
-  "maximum velocity, acceleration or jerk of {0}: no realistic timing":
-    "{0} 的最大速度、加速度或加加速度：时间计算不真实",
-  "models of its bodies: collisions are not detected": "各部件的模型：无法检出碰撞",
-  "the length of the tool, taken as 0": "刀具长度，按 0 处理",
-  "errors: the actual machine is the nominal one": "误差：实际机床等同于名义机床",
-  "location errors (squareness, offsets) of {0}": "{0} 的位置和方向误差（垂直度、偏移）",
-  "error motions, taken as 0: {0}": "误差运动，按 0 处理：{0}",
-  "standard uncertainties, taken as 0: {0}": "标准不确定度，按 0 处理：{0}",
 };

@@ -38,8 +38,3 @@ export const texts: Dictionary = {
   "{0}, {1}, over time. Arrow keys move the cursor, Enter goes there, plus and minus zoom.":
     "{0}，{1}，随时间变化。方向键移动光标，Enter 转到该处，加号和减号缩放。",
 };
-
-/** What the server says. */
-export const server: Dictionary = {
-  unlimited: "无限",
-};

@@ -92,25 +92,6 @@ export const texts: Dictionary = {
 
 /** What the server says. */
 export const server: Dictionary = {
-  "this model explains what can be explained": "该模型已解释全部可解释的内容",
-  "this model is over-fitted: measure at more places, or seek less": "该模型过拟合：请在更多位置测量，或减少未知量",
-  "more remains than noise, and it follows machine XYZ (volumetric): {0n} % of it":
-    "残差仍大于噪声，且随机床 XYZ 变化（空间误差）：占 {0n} %",
-  "more remains than noise, and it turns with {0}: {1n} % of it": "残差仍大于噪声，且随 {0} 旋转：占 {1n} %",
-  'more remains than noise, and {0n} % of it looks like a location error that is not listed: location = "minimal" lists all':
-    '残差仍大于噪声，其中 {0n} % 像是未列出的位置和方向误差：location = "minimal" 可列出全部',
-  "more remains than noise, and {0n} % of it depends on the direction of approach":
-    "残差仍大于噪声，其中 {0n} % 取决于趋近方向",
-  "more remains than noise, and {0n} % of it drifts with time: return to the first station, warm the machine up":
-    "残差仍大于噪声，其中 {0n} % 随时间漂移：请返回首个测点，并预热机床",
-  "one number does not belong to the others: see the outliers, correct it or delete its row":
-    "有一个数值与其他不符：见离群值，请更正或删除该行",
-  "{0n} numbers do not belong to the others: see the outliers, correct them or delete their rows":
-    "{0n} 个数值与其他不符：见离群值，请更正或删除这些行",
-  "more remains than noise, and it follows neither the axes nor the time: look at the instrument, at its noise, at conventions":
-    "残差仍大于噪声，且既不随轴也不随时间变化：请检查仪器、其噪声和符号约定",
-  "stage `{0}` contradicts what was known before: the result is a mean of two set-ups":
-    "阶段 `{0}` 与之前的结果矛盾：所得结果是两次仪器安装的平均",
   arrangement: "轴的布置",
   approach: "趋近方向",
 };

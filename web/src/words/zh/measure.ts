@@ -124,12 +124,6 @@ export const server: Dictionary = {
   "points-on-circle": "圆上的点",
   "points-on-sphere": "球面上的点",
   "points-on-cylinder": "圆柱面上的点",
-  hit: "触测",
-  "measured on {0} of [truth], seed {1n}: virtual readings": "在 [truth] 的 {0} 上测量，随机种子 {1n}：虚拟读数",
-  "measured on {0}, seed {1n}: virtual readings": "在 {0} 上测量，随机种子 {1n}：虚拟读数",
-  "paths: {0n}, readings: {1n}, lost: {2n}, time: {3n} min {4n} s":
-    "测量路径：{0n}，读数：{1n}，丢失：{2n}，时间：{3n} min {4n} s",
-  "Readings less nominal": "读数减名义值",
   // Numbers of things, see `count`.
   "{0n} station": "{0n} 个测点",
   "{0n} stations": "{0n} 个测点",

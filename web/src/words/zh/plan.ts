@@ -66,9 +66,3 @@ export const texts: Dictionary = {
   "Save {0}": "保存 {0}",
   "Programs and tables of poses": "程序和位姿表",
 };
-
-/** What the server says. */
-export const server: Dictionary = {
-  "hits cannot be written for {0}: its probing cycles move X, Y and Z, and this machine touches by other axes; choose another control, or take the table of poses":
-    "无法为 {0} 生成触测程序：其测量循环移动 X、Y、Z，而此机床用其他轴触测；请选择其他数控系统，或使用位姿表",
-};

@@ -182,13 +182,6 @@ export const texts: Dictionary = {
 /** What the server says. */
 export const server: Dictionary = {
   // The verdict.
-  "NOT COMPLETE": "不完整",
-  "NOT POSSIBLE": "无法执行",
-  "NO ISSUES": "没有问题",
-  SLOWER: "有减速",
-  "NO SET-UP": "无装夹设置",
-  CRITICAL: "有危险",
-  "no issue found that endangers part or machine": "未发现危及零件或机床的问题",
   // Kinds of critical issues.
   collision: "碰撞",
   "rapid in stock": "快移穿过毛坯",
@@ -202,10 +195,6 @@ export const server: Dictionary = {
   "Deviation of the tip along the binormal": "刀尖偏差：副法向",
   "Deviation of the tool axis": "刀轴偏差",
   // What a block does besides its moves.
-  "tilted plane on": "倾斜面 开",
-  "tilted plane off": "倾斜面 关",
-  "work offset that goes round with the table on": "随工作台回转的工件偏置 开",
-  "work offset that goes round with the table off": "随工作台回转的工件偏置 关",
   // Of notes on lines of the program: see severityWord.
   "severity error": "错误",
   "severity warning": "警告",
