@@ -1,6 +1,6 @@
 // Standards: what the tab shows is what `trueaxis evaluate` says; a dropped CSV gives the same; a bad cell is named.
 import assert from "node:assert/strict";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { copyFileSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import { test } from "node:test";
@@ -359,4 +359,24 @@ test("any table: what its columns are is chosen, saved with it, and read by the 
     await own.stop();
     rmSync(folder, { recursive: true });
   }
+});
+
+test("the budget of a rotary axis is in µrad, as the command has it", async () => {
+  const folder = mkdtempSync(path.join(tmpdir(), "trueaxis-budget-"));
+  copyFileSync(path.join(root, "examples/07_verify/c-axis-polygon.csv"), path.join(folder, "c.csv"));
+  writeFileSync(path.join(folder, "c.toml"), 'name = "C"\naxis = "C"\n[uncertainty]\ndevice_expanded = "1 arcsec"\n');
+  const own = await serve(folder);
+  const { page, context, complaints } = await open(browser, own.address);
+  await page.goto(new URL("#standards?path=c.csv&standard=iso230-2", own.address).href);
+  await page.waitForSelector('#tab-standards [data-sheet="budget"]');
+  const heading = await page.textContent('#tab-standards [data-sheet="budget"] thead');
+  assert.match(heading, /standard uncertainty, µrad/);
+  const { budget } = await cli("evaluate", "iso230-2", path.join(folder, "c.csv"));
+  // By hand: U = 1″ with k = 2 is u = 0.5″ = 2.42 µrad.
+  assert.equal(shown(budget.device_u_urad, 2), "2.42");
+  assert.deepEqual((await table(page, "budget")).find(([name]) => name === "device")?.[1], "2.42");
+  assert.deepEqual(complaints, []);
+  await context.close();
+  await own.stop();
+  rmSync(folder, { recursive: true });
 });
