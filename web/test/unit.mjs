@@ -292,7 +292,9 @@ const file = `# figures
 "a \\"quoted\\" text" = "„so“"
 error = "Fehler"
 "tool {0n}" = "Werkzeug {0}"
-"{0}.nc on {1}" = "{0}.nc auf {1}"`;
+"{0}.nc on {1}" = "{0}.nc auf {1}"
+"All is well." = "Alles ist gut."
+"There remain {0n}." = "Es bleiben {0}."`;
 const german = lookupOf(entriesOf(file));
 for (const [text, said] of [
   ["3 of 5 points", "3 von 5 Punkten"],
@@ -307,10 +309,12 @@ for (const [text, said] of [
   ["tool 5", "Werkzeug 5"],
   ["tool 5.nc", undefined],
   ["tool 5.nc on mill", "tool 5.nc auf mill"],
+  ["All is well. There remain 5 µm.", "Alles ist gut. Es bleiben 5 µm."],
+  ["All is well. Who knows.", undefined],
 ]) {
   assert.equal(german(text), said, text);
 }
-assert.equal(entriesOf(file).length, 7);
+assert.equal(entriesOf(file).length, 9);
 
 await vite.close();
 console.log("unit checks passed");

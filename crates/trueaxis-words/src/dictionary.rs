@@ -40,9 +40,9 @@ impl Dictionary {
     /// assert_eq!(german.text("error of EXX"), "Fehler von EXX");
     /// assert_eq!(german.text("EXX"), "EXX");
     /// // Of several sentences each is looked up; one that is not known leaves all of them English.
-    /// let file = "\"All is well.\" = \"Alles ist gut.\"\n\"{0n} is left.\" = \"{0} bleibt.\"";
+    /// let file = "\"All is well.\" = \"Alles ist gut.\"\n\"There remain {0n}.\" = \"Es bleiben {0}.\"";
     /// let german = Dictionary::read(&[("de.toml", file)]).unwrap();
-    /// assert_eq!(german.text("All is well. 5 µm is left."), "Alles ist gut. 5 µm bleibt.");
+    /// assert_eq!(german.text("All is well. There remain 5 µm."), "Alles ist gut. Es bleiben 5 µm.");
     /// assert_eq!(german.text("All is well. Who knows."), "All is well. Who knows.");
     /// ```
     ///
