@@ -39,6 +39,8 @@ export function dialog(name: string): Dialog {
   // Keys are those of the dialog while it is open.
   element.addEventListener("keydown", (event) => event.stopPropagation());
   element.addEventListener("close", () => {
+    // The event comes some time after the end; the window may be open again.
+    if (element.open) return;
     element.remove();
     if (before?.isConnected) before.focus();
     before = null;
