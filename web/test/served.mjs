@@ -52,6 +52,10 @@ export async function serve(folder = root, options = ["--no-token"]) {
     });
     child.on("exit", (status) => failed(new Error(`trueaxis serve ended with ${status}`)));
   });
+  // After a test that failed nothing stops it: the tests end all the same, and it with them.
+  child.unref();
+  child.stdout.unref();
+  process.once("exit", () => child.kill());
   if (!process.env.ADDRESS) return { address, stop: () => child.kill() };
   const vite = await live(address);
   const stop = () => vite.close().finally(() => child.kill());

@@ -105,6 +105,29 @@ for (const control of Object.keys(CONTROLS))
     await end(3);
   });
 
+test("a program of 10⁶ lines leaves the page below 150 MB; a place chosen while its source is loading stays", async () => {
+  const { folder, name } = project("fanuc", 1_000_000);
+  const { page, click, end } = await begin(folder);
+  await click(`a[href*="program=${name}"]`);
+  const largest = page.locator('[data-test="to-largest"]');
+  await largest.waitFor({ timeout: 300_000 });
+  const line = (await largest.textContent()).match(/\d+/)[0];
+  assert.ok(Number(line) > 1000, line);
+  await click('[data-test="to-largest"]');
+  const current = page.locator(".source-line[aria-current=true]");
+  await current.waitFor();
+  assert.equal(await current.getAttribute("id"), `source-line-${line}`);
+  // Its block is read out as soon as the source is here.
+  await page.waitForFunction(() => /C\d/.test(document.querySelector(`[data-test="block"]`)?.textContent ?? ""));
+  const session = await page.context().newCDPSession(page);
+  await session.send("HeapProfiler.collectGarbage");
+  const heap = await session.send("Runtime.getHeapUsage");
+  // Objects, what the browser keeps for the document, and arrays of numbers.
+  const megabytes = (heap.usedSize + heap.embedderHeapUsedSize + heap.backingStorageSize) / 1e6;
+  assert.ok(megabytes > 30 && megabytes <= 150, `${megabytes} MB`);
+  await end(2);
+});
+
 test("a program is compensated, downloaded, and simulated again", async () => {
   const { folder, name } = project("fanuc", 2_000);
   const { page, click, end } = await begin(folder);

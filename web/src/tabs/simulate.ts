@@ -367,12 +367,13 @@ class SimulateTab implements TabHandle {
     this.view.setOnWorkpiece(simulation.on_workpiece);
     this.path.setSimulation(simulation);
     this.curves.setSimulation(simulation);
-    await this.showProgram(0);
-    if (numberIn(this.wanted.t) === null) this.player.seek(0);
-    this.takeState(this.wanted);
+    // Before the source is here: a long one takes a second, and what one chooses meanwhile must stay.
+    const { wanted } = this;
     this.wanted = {};
+    this.takeState({ ...wanted, t: wanted.t ?? "0" });
     this.keepState();
     this.app.say("");
+    await this.showProgram(0);
   }
 
   // ---- the address ----
@@ -384,7 +385,7 @@ class SimulateTab implements TabHandle {
     this.curves.take(params.curves);
     if (params.view) this.view.setView(params.view);
     const time_s = numberIn(params.t);
-    if (time_s !== null && short(time_s, 4) !== short(this.moment?.time_s ?? 0, 4)) this.player.seek(time_s);
+    if (time_s !== null && short(time_s, 4) !== short(this.moment?.time_s ?? NaN, 4)) this.player.seek(time_s);
   }
 
   private keepState(): void {
@@ -433,7 +434,9 @@ class SimulateTab implements TabHandle {
       .filter((m) => m.grave && m.program === index)
       .map((m) => ({ line: m.line, severity: "error", message: trText(m.text) }));
     this.showSource(known.name, known.text, [...notesOf(header.diagnostics, path), ...marks]);
-    if (this.moment?.program === index) this.source.setCurrent(this.moment.line);
+    if (this.moment?.program !== index) return;
+    this.source.setCurrent(this.moment.line);
+    this.readOut(this.moment);
   }
 
   private showSource(name: string, text: string, notes: LineNote[]): void {
@@ -517,12 +520,13 @@ class SimulateTab implements TabHandle {
     if (moment.program !== this.shown_program)
       void this.showProgram(moment.program).catch((error) => this.failed(error));
     else this.source.setCurrent(moment.line);
-    this.readout.show(
-      moment,
-      this.texts.get(moment.program) && moment.program === this.shown_program
-        ? this.source.textOf(moment.line).trim()
-        : "",
-    );
+    this.readOut(moment);
+  }
+
+  /** The moment in numbers, with its block once the source is here. */
+  private readOut(moment: Moment): void {
+    const is_here = this.texts.has(moment.program) && moment.program === this.shown_program;
+    this.readout.show(moment, is_here ? this.source.textOf(moment.line).trim() : "");
   }
 
   /** What makes the deviation at the present block. */
