@@ -13,6 +13,7 @@
 
 mod load;
 mod mesh;
+mod room;
 mod scene;
 mod shape;
 mod stl;
@@ -21,8 +22,9 @@ mod triangle;
 
 pub use load::{export, load_models, load_stl};
 pub use mesh::{Mesh, Nearest, Placed, Scratch};
+pub use room::Room;
 pub use scene::{Allowed, BodyModel, Contact, Excluded, Role, Scene, ToolShape};
 pub use shape::{ROUNDNESS_MM, cuboid, raise, revolve, triangles_of};
 pub use stl::{read_stl, write_stl};
-pub use sweep::{Room, Sweep};
+pub use sweep::Sweep;
 pub use triangle::{Gap, Triangle, gap};

@@ -155,24 +155,23 @@ impl Collisions {
         let poses = |command: &Command| machine.body_poses(command, &ErrorValues::default());
         self.contacts.clear();
         self.most_work += self.work_of_move(&from, &node.command);
-        let is_free = |room: &mut Room| room.take(&from, &node.command, sweep.allowed);
-        if self.room.as_mut().is_some_and(is_free) {
+        let way = |room: &mut Room| room.take(&from, &node.command, sweep.allowed);
+        let before = self.scene.work();
+        self.scene.limit_work(before + self.most_work.saturating_sub(self.work));
+        let mut renewed = |room: &mut Room| self.scene.renew(room, &poses, &sweep);
+        let is_free = self.room.as_mut().is_some_and(|room| way(room) || renewed(room));
+        let is_whole = is_free || self.scene.sweep(&poses, &sweep, &mut self.contacts);
+        self.work += self.scene.work() - before;
+        if is_free {
             self.log.close(from_s);
             self.before = Some((node.command, stamp.time_s));
             return;
         }
-        let before = self.scene.work();
-        self.scene.limit_work(before + self.most_work.saturating_sub(self.work));
-        let is_whole = self.scene.sweep(&poses, &sweep, &mut self.contacts);
-        self.work += self.scene.work() - before;
         if !is_whole {
             self.ended_at = Some(node.origin);
         }
-        self.room =
-            self.contacts.is_empty().then(|| self.scene.room(&sweep)).and_then(|mut room| {
-                let is_free = room.take(&from, &node.command, sweep.allowed);
-                is_free.then_some(room)
-            });
+        let room = self.contacts.is_empty().then(|| self.scene.room(&sweep));
+        self.room = room.and_then(|mut room| way(&mut room).then_some(room));
         for contact in &self.contacts {
             let time_s = from_s + contact.at * (stamp.time_s - from_s);
             let Some(kind) = kind(contact) else { continue };

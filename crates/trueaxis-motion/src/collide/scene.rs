@@ -166,7 +166,7 @@ pub(super) struct Pair {
     /// Where the second stood in the first when their distance was asked for the last time.
     reference: Placed,
     /// No less were they apart then, mm.
-    far_mm: f64,
+    pub(super) far_mm: f64,
     /// No less were they apart when both had travelled so far, mm.
     free_mm: f64,
     travelled_mm: f64,
@@ -336,11 +336,7 @@ impl Scene {
     pub(super) fn place(&mut self, poses: &[Pose<Bed, Body>]) {
         self.nodes_now.clear();
         self.nodes_now.extend_from_slice(poses);
-        for member in &mut self.members {
-            let now = member.at(poses);
-            member.travelled_mm += motion_mm(&member.mesh, &member.now, &now);
-            member.now = now;
-        }
+        self.members.iter_mut().for_each(|member| member.place(poses));
     }
 
     pub(super) fn relative(&self, pair: &Pair) -> Placed {
@@ -474,6 +470,13 @@ impl Scene {
 }
 
 impl Member {
+    /// Moves it to where it is at these poses.
+    pub(super) fn place(&mut self, poses: &[Pose<Bed, Body>]) {
+        let now = self.at(poses);
+        self.travelled_mm += motion_mm(&self.mesh, &self.now, &now);
+        self.now = now;
+    }
+
     /// `bed_from_model`, as a rigid motion.
     pub(super) fn at(&self, poses: &[Pose<Bed, Body>]) -> Placed {
         let node = self.node.and_then(|i| poses.get(i));

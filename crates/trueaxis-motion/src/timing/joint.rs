@@ -184,7 +184,7 @@ pub(super) fn passage(
         Corner::Blend(d) => d,
     };
     let round = blend(limits, before, after, d);
-    match pays(&round.bounds, d, [before, after].map(|s| (first_bounds(limits, s), s.length))) {
+    match pays(limits, &round.bounds, d, [before, after]) {
         true => Passage::Round(d, round),
         false => {
             let axis = round.acceleration_axis;
@@ -203,14 +203,19 @@ fn first_bounds(limits: &Reciprocals, segment: &Segment) -> Bounds {
 
 /// Whether a blend takes less time than a stop at the node, docs/model.md eq. 45b: for each side the time
 /// that a change of velocity loses against the velocity V from which it begins.
-fn pays(round: &Bounds, d: f64, sides: [(Bounds, f64); 2]) -> bool {
+fn pays(limits: &Reciprocals, round: &Bounds, d: f64, sides: [&Segment; 2]) -> bool {
     let (mut blend_s, mut stop_s) = (0.0, 0.0);
-    for (bounds, length) in sides {
+    for segment in sides {
+        // No segment allows more than its feed.
+        if round.v >= 0.5 * segment.feed.min(CEILING.v) {
+            continue;
+        }
+        let bounds = first_bounds(limits, segment);
         if round.v >= 0.5 * bounds.v {
             continue;
         }
         // As fast as the segment alone allows.
-        let v = reach(0.0, 0.5 * length, &bounds);
+        let v = reach(0.0, 0.5 * segment.length, &bounds);
         let dv = (v - round.v).max(0.0);
         let slow = round.v.min(v);
         blend_s += 0.5 * ramp_time(dv, bounds.a, bounds.j) * dv / v + d * (1.0 / slow - 1.0 / v);
