@@ -90,13 +90,16 @@ export class Refusal extends Error {
   readonly code: string;
   readonly hint: string;
   readonly diagnostics: Diagnostic[];
+  /** Message and hint are those of the server, in English. */
+  readonly of_server: boolean;
 
-  constructor(code: string, message: string, hint = "", diagnostics: Diagnostic[] = []) {
+  constructor(code: string, message: string, hint = "", diagnostics: Diagnostic[] = [], of_server = false) {
     super(message);
     this.name = "Refusal";
     this.code = code;
     this.hint = hint;
     this.diagnostics = diagnostics;
+    this.of_server = of_server;
   }
 
   static from(error: unknown): Refusal {
@@ -113,6 +116,7 @@ function refusal(doc: RefusalDocument | undefined): Refusal {
     doc?.message ?? tr`the server refused`,
     doc?.hint ?? "",
     doc?.diagnostics ?? [],
+    Boolean(doc?.message),
   );
 }
 

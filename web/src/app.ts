@@ -8,6 +8,7 @@ import { keysButton } from "./keys.ts";
 import { TABS } from "./tabs/index.ts";
 import { chooseTheme, themeChoice, type ThemeChoice } from "./theme.ts";
 import { chooseLanguage, codeWords, language, languages, severityWord, tr } from "./words/index.ts";
+import { refusedWith } from "./words/told.ts";
 
 export interface TabHandle {
   /** The tab is shown with these parameters of the address (`machine=…&program=…`). */
@@ -234,8 +235,8 @@ export class App {
     const toast = h(
       "div",
       { class: "toast", role: "alert", dataMessage: refusal.message },
-      h("strong", {}, refusal.message),
-      refusal.hint ? h("p", { class: "hint" }, refusal.hint) : null,
+      refusedWith("strong", {}, refusal, refusal.message),
+      refusal.hint ? refusedWith("p", { class: "hint" }, refusal, refusal.hint) : null,
       refusal.diagnostics.length > 0 ? diagnosticList(refusal.diagnostics.slice(0, 6)) : null,
       refusal.diagnostics.length > 6
         ? h("p", { class: "muted" }, tr`and ${refusal.diagnostics.length - 6} more`)

@@ -1,6 +1,6 @@
 /** A campaign while it is measured: stations, readings, how well they repeat; or a machine that is not there. */
 
-import { told } from "../words/told.ts";
+import { refusedWith } from "../words/told.ts";
 import { tr, trText } from "../words/index.ts";
 import type { ServeMeasure, ServeMeasureCheck, ServeMeasureSheet } from "../../types.d.ts";
 import { diagnosticList, split, type App, type Tab, type TabHandle } from "../app.ts";
@@ -394,7 +394,13 @@ class MeasureTab implements TabHandle {
         h("h2", {}, tr`These readings cannot be used yet`),
         refusal.diagnostics.length > 0
           ? diagnosticList(refusal.diagnostics.slice(0, 8))
-          : h("p", {}, told("span", {}, refusal.message), " ", told("span", { class: "hint" }, refusal.hint)),
+          : h(
+              "p",
+              {},
+              refusedWith("span", {}, refusal, refusal.message),
+              " ",
+              refusedWith("span", { class: "hint" }, refusal, refusal.hint),
+            ),
       ),
     );
   }

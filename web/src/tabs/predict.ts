@@ -1,6 +1,7 @@
 /** The test piece before it is cut: is it good, which error contributes what, and what if? */
 
 import { tr } from "../words/index.ts";
+import { refusedWith } from "../words/told.ts";
 import { diagnosticList, split, type App, type Tab, type TabHandle } from "../app.ts";
 import { latestOnly, Refusal } from "../api.ts";
 import type { Params } from "../address.ts";
@@ -156,8 +157,8 @@ class PredictTab implements TabHandle {
     fill(
       this.empty,
       h("div", { class: "panel-head" }, h("h1", {}, tr`${study} cannot be predicted`), studyChoice(this.app, study)),
-      h("p", {}, refusal.message),
-      refusal.hint ? h("p", { class: "hint" }, refusal.hint) : null,
+      refusedWith("p", {}, refusal, refusal.message),
+      refusal.hint ? refusedWith("p", { class: "hint" }, refusal, refusal.hint) : null,
       diagnosticList(refusal.diagnostics),
       h("button", { onclick: () => void this.load(study) }, tr`Try again`),
       this.compensated

@@ -111,26 +111,22 @@ impl Sampler<'_, '_> {
         let u = [u0 + quarter, u0 + 2.0 * quarter, u0 + 3.0 * quarter, u1];
         let [one, two, three, four] = (self.course)(u, begin)?;
         let points = [*begin, one, two, three, four];
-        if halvings < MOST_HALVINGS && (0..MAX_AXES).any(|i| is_coarse(points.map(|q| q[i]))) {
+        if halvings < MOST_HALVINGS && is_coarse(&points) {
             let middle = 0.5 * (u0 + u1);
             let there = self.cell([u0, middle], begin, halvings + 1)?;
             return self.cell([middle, u1], &there, halvings + 1);
         }
         let length = self.length * (u1 - u0);
-        let zero = [0.0; MAX_AXES];
-        let mut part =
-            Part { length, steady: zero, slope: zero, bend: zero, twist: zero, circular: false };
-        let mut ends = [Tangent::default(); 2];
-        for i in 0..MAX_AXES {
-            let [slope, bend, twist] = derivatives(points.map(|q| q[i]), 0.25 * length);
-            let most = |values: &[f64]| values.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-            part.slope[i] = most(&slope) * BETWEEN;
-            part.bend[i] = most(&bend) * BETWEEN;
-            part.twist[i] = most(&twist) * BETWEEN;
-            for (end, k) in ends.iter_mut().zip([0, 4]) {
-                (end.slope[i], end.bend[i]) = (slope[k], bend[k]);
-            }
-        }
+        let [slope, bend, twist] = derivatives(&points, 0.25 * length);
+        let part = Part {
+            length,
+            steady: [0.0; MAX_AXES],
+            slope: largest(&slope),
+            bend: largest(&bend),
+            twist: largest(&twist),
+            circular: false,
+        };
+        let ends = [0, 4].map(|k| Tangent { slope: slope[k], bend: bend[k] });
         if self.parts.is_empty() {
             self.ends[0] = ends[0];
         }
@@ -143,20 +139,43 @@ impl Sampler<'_, '_> {
 /// Between two of five points a derivative may be a little larger than at them.
 const BETWEEN: f64 = 1.02;
 
+/// Somewhat more than the largest magnitude of each axis at five points.
+fn largest(values: &[Command; 5]) -> Command {
+    let mut most = [0.0_f64; MAX_AXES];
+    for row in values {
+        for (most, value) in most.iter_mut().zip(row) {
+            *most = most.max(value.abs());
+        }
+    }
+    most.map(|most| most * BETWEEN)
+}
+
+// What follows goes through the axes in its innermost loops: they are computed side by side.
+
 /// Five equal differences: of second and third order, and that of fourth order, which is too large
 /// where the polynomial of the points may not be the curve.
-fn is_coarse(q: [f64; 5]) -> bool {
-    let first = (q[4] - q[0]).abs();
-    let second = (q[4] - 2.0 * q[2] + q[0]).abs();
-    let third = (q[4] - 2.0 * q[3] + 2.0 * q[1] - q[0]).abs();
-    let fourth = (q[4] - 4.0 * q[3] + 6.0 * q[2] - 4.0 * q[1] + q[0]).abs();
-    fourth > 1e-3 * (second + third) + 1e-5 * first + 1e-8 * (1.0 + q[0].abs())
+fn is_coarse(points: &[Command; 5]) -> bool {
+    let mut is_coarse = false;
+    for i in 0..MAX_AXES {
+        let q = points.map(|q| q[i]);
+        let first = (q[4] - q[0]).abs();
+        let second = (q[4] - 2.0 * q[2] + q[0]).abs();
+        let third = (q[4] - 2.0 * q[3] + 2.0 * q[1] - q[0]).abs();
+        let fourth = (q[4] - 4.0 * q[3] + 6.0 * q[2] - 4.0 * q[1] + q[0]).abs();
+        is_coarse |= fourth > 1e-3 * (second + third) + 1e-5 * first + 1e-8 * (1.0 + q[0].abs());
+    }
+    is_coarse
 }
 
 /// First three derivatives of the polynomial of fourth degree through five points at a distance h.
-fn derivatives(q: [f64; 5], h: f64) -> [[f64; 5]; 3] {
-    let row = |weights: [f64; 5], scale: f64| {
-        weights.iter().zip(q).map(|(w, q)| w * q).sum::<f64>() / scale
+fn derivatives(points: &[Command; 5], h: f64) -> [[Command; 5]; 3] {
+    let [p, q, r, s, t] = points;
+    let row = |[a, b, c, d, e]: [f64; 5], scale: f64| {
+        let mut row = Command::default();
+        for i in 0..MAX_AXES {
+            row[i] = (a * p[i] + b * q[i] + c * r[i] + d * s[i] + e * t[i]) / scale;
+        }
+        row
     };
     let (one, two, three) = (12.0 * h, 12.0 * h * h, 2.0 * h * h * h);
     let slope = [
@@ -180,14 +199,19 @@ fn derivatives(q: [f64; 5], h: f64) -> [[f64; 5]; 3] {
         row([1.0, -6.0, 12.0, -10.0, 3.0], three),
         row([3.0, -14.0, 24.0, -18.0, 5.0], three),
     ];
-    let rounding = ROUNDING * (1.0 + q[0].abs());
-    if twist.iter().all(|t| (t * h * h * h).abs() < rounding) {
-        twist = [0.0; 5];
-    }
-    if bend.iter().all(|b| (b * h * h).abs() < rounding) {
-        bend = [0.0; 5];
-    }
+    without_rounding(&mut twist, |twist| twist * h * h * h, p);
+    without_rounding(&mut bend, |bend| bend * h * h, p);
     [slope, bend, twist]
+}
+
+/// Derivatives of an axis that are rounding of its positions at all points are none.
+fn without_rounding(rows: &mut [Command; 5], difference: impl Fn(f64) -> f64, at: &Command) {
+    for i in 0..MAX_AXES {
+        let rounding = ROUNDING * (1.0 + at[i].abs());
+        if rows.iter().all(|row| difference(row[i]).abs() < rounding) {
+            rows.iter_mut().for_each(|row| row[i] = 0.0);
+        }
+    }
 }
 
 #[cfg(test)]
@@ -197,12 +221,12 @@ mod tests {
     /// x⁴ at 0, 1, 2, 3, 4: 4x³, 12x², 24x.
     #[test]
     fn derivatives_of_a_fourth_power() {
-        let q = [0.0_f64, 1.0, 2.0, 3.0, 4.0].map(|x| x.powi(4));
-        let [slope, bend, twist] = derivatives(q, 1.0);
+        let points = [0.0_f64, 1.0, 2.0, 3.0, 4.0].map(|x| [0.0, x.powi(4), 0.0, 0.0, 0.0, 0.0]);
+        let [slope, bend, twist] = derivatives(&points, 1.0);
         for (k, x) in [0.0_f64, 1.0, 2.0, 3.0, 4.0].into_iter().enumerate() {
-            assert!((slope[k] - 4.0 * x.powi(3)).abs() < 1e-9);
-            assert!((bend[k] - 12.0 * x * x).abs() < 1e-9);
-            assert!((twist[k] - 24.0 * x).abs() < 1e-9);
+            assert!((slope[k][1] - 4.0 * x.powi(3)).abs() < 1e-9 && slope[k][0] == 0.0);
+            assert!((bend[k][1] - 12.0 * x * x).abs() < 1e-9);
+            assert!((twist[k][1] - 24.0 * x).abs() < 1e-9);
         }
     }
 

@@ -1,6 +1,7 @@
 /** The panel of changes: switch errors off or drag them, set the part up otherwise. */
 
 import { tr } from "../../words/index.ts";
+import { refusedWith } from "../../words/told.ts";
 import type { Request } from "../../api.ts";
 import type { Refusal } from "../../api.ts";
 import { fill, h } from "../../dom.ts";
@@ -336,8 +337,9 @@ export class WhatIf {
     fill(
       this.refused,
       h("strong", {}, tr`Not computed; the figures are those before. `),
-      refusal.message,
-      refusal.hint ? `. ${refusal.hint}` : "",
+      refusedWith("span", {}, refusal, refusal.message),
+      refusal.hint ? ". " : "",
+      refusedWith("span", {}, refusal, refusal.hint),
     );
   }
 }

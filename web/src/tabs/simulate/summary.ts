@@ -1,6 +1,6 @@
 /** What the simulation says in one glance: does it run, how long, how far off; and where the issues are. */
 
-import { told } from "../../words/told.ts";
+import { refusedWith, told } from "../../words/told.ts";
 import { tr, trText } from "../../words/index.ts";
 import { diagnosticList } from "../../app.ts";
 import type { Diagnostic, Refusal } from "../../api.ts";
@@ -165,7 +165,7 @@ export class Summary {
           "strong",
           { class: "runs bad", dataTest: "verdict" },
           errors.length === 0
-            ? refusal.message
+            ? refusedWith("span", {}, refusal, refusal.message)
             : errors.length === 1
               ? tr`Cannot be simulated: one error`
               : tr`Cannot be simulated: ${errors.length} errors`,
@@ -174,7 +174,7 @@ export class Summary {
       refusal.diagnostics.length > 0
         ? diagnosticList(refusal.diagnostics.slice(0, MOST_ROWS))
         : refusal.hint
-          ? h("p", { class: "hint" }, refusal.hint)
+          ? refusedWith("p", { class: "hint" }, refusal, refusal.hint)
           : null,
       again
         ? h(
