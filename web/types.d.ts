@@ -935,6 +935,8 @@ export interface Documents {
   "serve-simulation-path": ServeSimulationPath;
   "serve-simulation-source-request": ServeSimulationSourceRequest;
   "serve-simulation-source": ServeSimulationSource;
+  "serve-simulation-stock-request": ServeSimulationStockRequest;
+  "serve-simulation-stock": ServeSimulationStock;
   "serve-socket-request": ServeSocketRequest;
   "serve-socket": ServeSocket;
   "serve-standards-request": ServeStandardsRequest;
@@ -14569,6 +14571,40 @@ export interface ServeSimulationSource {
    * Its text.
    */
   text: string;
+}
+/**
+ * The stock as it is at one time.
+ */
+export interface ServeSimulationStockRequest {
+  /**
+   * The number of the simulation.
+   */
+  simulation: number;
+  /**
+   * The time, s.
+   */
+  time_s: number;
+}
+/**
+ * The stock at a time. Array: `corners_mm` (f32: the corners of the triangles of `on_workpiece`, nine numbers each).
+ */
+export interface ServeSimulationStock {
+  /**
+   * The time, s.
+   */
+  time_s: number;
+  /**
+   * What remains of the stock, mm³.
+   */
+  left_mm3: number;
+  /**
+   * What was removed, mm³.
+   */
+  removed_mm3: number;
+  /**
+   * Stock, part and fixtures of the set-up.
+   */
+  on_workpiece: SurfaceEntry[];
 }
 /**
  * What a window sends: a request, or that it no longer waits for one.

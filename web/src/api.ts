@@ -79,6 +79,7 @@ type WithArrays =
   | "evaluate"
   | "simulate"
   | "simulation-at"
+  | "simulation-stock"
   | "simulation-path"
   | "simulation-curves";
 export type Reply<N extends Question> = N extends WithArrays ? Frame<Answer<N>> : Answer<N>;

@@ -156,6 +156,36 @@ test("the stock: what was removed, what remains, feed in the air", async () => {
   assert.deepEqual(complaints, []);
 });
 
+test("the stock as it is at a time: by the address, by the button, and back to what the program leaves", async () => {
+  const { page, complaints, document } = await example(ring, engraver);
+  const { stock } = document;
+  const removed = () => page.textContent('[data-test="stock-removed"]');
+  const is = (text) =>
+    page.waitForFunction((t) => document.querySelector('[data-test="stock-removed"]').textContent === t, text);
+  assert.equal(await removed(), "");
+  await page.click('[data-test="stock-in-time"]');
+  await is("0.00\u202fcm³ removed");
+  await page.locator(".timeline-track").focus();
+  await page.keyboard.press("End");
+  await is(`${(stock.removed_mm3 / 1e3).toFixed(2)}\u202fcm³ removed`);
+  // Half way there is less; the address keeps it.
+  const half = await page.evaluate(() => globalThis.trueaxisScene.moment().time_s / 2);
+  const address = new URL(await page.evaluate(() => location.href));
+  assert.match(address.hash, /stock=now/);
+  address.hash = address.hash.replace(/([&?])t=[^&]*/, `$1t=${half.toFixed(3)}`);
+  await page.goto("about:blank");
+  await page.goto(address.href);
+  await page.waitForFunction((most) => {
+    const mm3 = 1e3 * Number.parseFloat(document.querySelector('[data-test="stock-removed"]')?.textContent ?? "");
+    return mm3 > 0.2 * most && mm3 < 0.8 * most;
+  }, stock.removed_mm3);
+  await page.click('[data-test="look-at-path"]');
+  await picture(page, "simulate-stock-at-a-time");
+  await page.click('[data-test="stock-in-time"]');
+  await is("");
+  assert.deepEqual(complaints, []);
+});
+
 test("a collision is a mark that jumps to it", async () => {
   const { page, complaints, context, document } = await example(collision, engraver);
   const issue = document.troubles.find((t) => t.grave);

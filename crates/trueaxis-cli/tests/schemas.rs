@@ -265,6 +265,7 @@ const REQUESTS: &[(&str, &str)] = &[
         "simulation-curves",
         r#"{"simulation": 1, "from_s": 0, "to_s": 5, "columns": 20, "quantities": ["X", "tip"]}"#,
     ),
+    ("simulation-stock", r#"{"simulation": 1, "time_s": 2.5}"#),
     ("simulation-source", r#"{"simulation": 1, "program": 0}"#),
 ];
 

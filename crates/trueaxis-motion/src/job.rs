@@ -4,7 +4,7 @@ use super::collide::{BodyModel, load_models};
 use super::program::program_of;
 use super::{
     AxisWatch, Batch, Collisions, Drift, Issue, IssueKind, IssueList, Machined, Machining,
-    Observer, Options, Run, SetUp, Summary, read_program, read_setup, simulate,
+    Observer, Options, Run, SetUp, Stop, Summary, read_program, read_setup, simulate,
 };
 use crate::report::issue_text;
 use crate::tool_check;
@@ -161,6 +161,22 @@ impl Job {
         Findings { run, summary, issues, drift, machined }
     }
 
+    /// What became of the stock up to a time of the program, s: what comes later is not executed. `None` if it was given up.
+    pub fn machined_until(
+        &self,
+        machining: Machining,
+        end_s: f64,
+        given_up: &Stop,
+    ) -> Option<Machined> {
+        let mut machining = machining.until(end_s);
+        let stop = Stop::default();
+        let mut end = End { end_s, given_up, stop: &stop };
+        let options = Options { stop: stop.clone(), ..self.options.clone() };
+        let mut observers: [&mut dyn Observer; 2] = [&mut machining, &mut end];
+        simulate(&self.machine, &self.program, &self.setup, &options, &mut observers);
+        (!given_up.is_requested()).then(|| machining.finish(&[]).0)
+    }
+
     /// The errors of a machine are known within its travel only: a deviation beyond it is a formula carried on.
     fn warn_outside_travel(&self, summary: &Summary, issues: &IssueList, run: &mut Run) {
         let worst = &summary.feed_tip;
@@ -221,6 +237,22 @@ impl Observer for Progress<'_> {
         if node.origin.program == 0 && node.origin.line > self.line {
             self.line = node.origin.line;
             (self.report)((f64::from(self.line) / self.lines).min(1.0));
+        }
+    }
+}
+
+/// Ends a run at a time of the program, or as soon as it is given up.
+struct End<'s> {
+    end_s: f64,
+    given_up: &'s Stop,
+    stop: &'s Stop,
+}
+
+impl Observer for End<'_> {
+    fn path(&mut self, batch: &Batch<'_>) {
+        let is_past = batch.stamps.last().is_some_and(|stamp| stamp.time_s > self.end_s);
+        if is_past || self.given_up.is_requested() {
+            self.stop.request();
         }
     }
 }

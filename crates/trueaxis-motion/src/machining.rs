@@ -132,6 +132,8 @@ pub struct Machining {
     spacing_mm: f64,
     /// Farther from its tip no tool is in the stock while its tip is near, mm.
     diagonal_mm: f64,
+    /// What comes later does not count, s.
+    end_s: f64,
     /// How many poses there were, and where they became too many.
     count: usize,
     ended_at: Option<Origin>,
@@ -181,6 +183,7 @@ impl Machining {
             tools: tools.collect(),
             spacing_mm: 0.6 * resolution_mm,
             diagonal_mm,
+            end_s: f64::INFINITY,
             count: 0,
             ended_at: None,
             tool: 0,
@@ -192,6 +195,12 @@ impl Machining {
             unknown: BTreeMap::new(),
             log: Log::default(),
         })
+    }
+
+    /// The same up to a time of the program, s.
+    #[must_use]
+    pub fn until(self, end_s: f64) -> Self {
+        Self { end_s, ..self }
     }
 
     /// Whether a path is drawn finely enough: by a tenth of what the stock resolves.
@@ -316,6 +325,9 @@ impl Machining {
             Some(Ok(tool)) if self.ended_at.is_none() => tool.reach_mm.min(self.diagonal_mm),
             _ => return,
         };
+        if from_s >= self.end_s {
+            return;
+        }
         let way_mm = (to.tip_mm - from.tip_mm).norm();
         let turned_mm = reach_mm * angle(&from.axis, &to.axis);
         let count = ((way_mm + turned_mm) / self.spacing_mm).ceil().max(1.0);
@@ -327,11 +339,16 @@ impl Machining {
         let lasts_s = (time_s - from_s) / count;
         for k in 1..=count as usize {
             let part = k as f64 / count;
+            let is_end = from_s + (time_s - from_s) * part > self.end_s;
+            let part = if is_end { (self.end_s - from_s) / (time_s - from_s) } else { part };
             self.poses.push(from.towards(&to, part));
             let time_s = from_s + (time_s - from_s) * part;
             self.moments.push(Moment { origin, time_s, lasts_s, is_rapid });
             if self.poses.len() >= CHUNK {
                 self.flush();
+            }
+            if is_end {
+                break;
             }
         }
     }

@@ -70,6 +70,7 @@ pub(crate) const QUESTIONS: &[Question] = questions! {
     Long "simulate" => simulate_document::SimulateRequest,
     Long "trace" => trace::TraceRequest,
     Quick "simulation-at" => simulate_document::SimulationAtRequest,
+    Long "simulation-stock" => simulate_document::SimulationStockRequest,
     Quick "simulation-block" => simulate_document::SimulationBlockRequest,
     Quick "simulation-path" => simulate_document::SimulationPathRequest,
     Quick "simulation-curves" => simulate_document::SimulationCurvesRequest,

@@ -1,13 +1,16 @@
 //! A simulation that is kept, so that the page can go back and forth in it.
 
+use std::sync::Arc;
 use trueaxis::machine::Machine;
-use trueaxis::simulate::Recording;
+use trueaxis::simulate::{Job, Recording};
 
 /// One simulation.
 pub(crate) struct Simulated {
     pub(crate) machine: Machine,
     pub(crate) recording: Recording,
     pub(crate) programs: Vec<Source>,
+    /// What was simulated, where the stock was cut: to cut it up to a time.
+    pub(crate) cut: Option<Arc<Job>>,
 }
 
 /// A program as it was simulated.

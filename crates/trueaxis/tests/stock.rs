@@ -8,7 +8,8 @@ use trueaxis::input::{Diagnostics, Files};
 use trueaxis::machine::Machine;
 use trueaxis::simulate::report::issue_code;
 use trueaxis::simulate::{
-    Collisions, Densify, Findings, Job, Machined, Machining, Options, ProgramFiles, Timing,
+    Collisions, Densify, Findings, Job, Machined, Machining, Options, ProgramFiles, Recorder, Stop,
+    Timing,
 };
 
 const MILL: &str = "[machine]\nname = \"mill\"\nchain = \"w b X Y Z t\"\n\
@@ -78,6 +79,51 @@ fn critical(found: &Findings) -> Vec<(&'static str, u32)> {
 
 fn near(found: f64, due: f64, part: f64) {
     assert!((found / due - 1.0).abs() < part, "{found} {due}");
+}
+
+/// While the tool goes along a slot, a rectangle and half a disc of its width are gone, 4 mm deep; before it nothing is, and at the end
+/// what the whole program took, to the last bit.
+#[test]
+fn law_the_stock_at_a_time_is_cut_up_to_where_the_tool_is_then() {
+    let job = job(
+        MILL,
+        SET_UP,
+        &program(&format!("{SLOT}G0 X-60.\nG1 Z-4.\nG1 Y30. F900\n")),
+        Options::default(),
+    );
+    let mut recorder = Recorder::of(&job.machine, &job.setup, &job.options);
+    let machining = || Machining::watch(&job.setup).expect("a stock");
+    let found = job.run_on(None, Some(machining()), &mut [&mut recorder]);
+    let (whole, recording) = (machined(&found), recorder.finish());
+    let until =
+        |time_s| job.machined_until(machining(), time_s, &Stop::default()).expect("a stock");
+    let end_s = recording.end_s();
+    let mut slots = 0;
+    let mut last_mm3 = whole.before_mm3;
+    for k in 0..=60 {
+        let time_s = end_s * f64::from(k) / 60.0;
+        let left_mm3 = until(time_s).stock.volume_mm3();
+        assert!(left_mm3 <= last_mm3, "{time_s}");
+        last_mm3 = left_mm3;
+        let tip = recording.at(time_s).expect("a place").tip_mm;
+        let is_in_slot =
+            (tip.z + 4.0).abs() < 1e-6 && tip.x > -34.0 && tip.x < 34.0 && tip.y.abs() < 1e-6;
+        if is_in_slot {
+            let area_mm2 = 10.0 * (tip.x + 40.0) + 0.5 * PI * 25.0;
+            near(whole.before_mm3 - left_mm3, 4.0 * area_mm2, 0.02);
+            slots += 1;
+        }
+    }
+    assert!(slots > 10, "{slots}");
+    for time_s in [end_s, 1e9] {
+        let at_end = until(time_s);
+        assert_eq!(at_end.stock.volumes_mm3(), whole.stock.volumes_mm3());
+        assert_eq!(at_end.blocks, whole.blocks);
+    }
+    assert_eq!(until(0.0).stock.volume_mm3(), whole.before_mm3);
+    let given_up = Stop::default();
+    given_up.request();
+    assert!(job.machined_until(machining(), end_s, &given_up).is_none());
 }
 
 const SLOT: &str = "G1 Z-4. F2000\nG1 X60. F1200\nG0 Z5.\n";

@@ -19,6 +19,7 @@ import { Player } from "./simulate/player.ts";
 import { Readout } from "./simulate/readout.ts";
 import { SetUpDialog } from "./simulate/setup.ts";
 import { SourceList, type LineNote } from "./simulate/source.ts";
+import { StockInTime } from "./simulate/stock.ts";
 import { Summary } from "./simulate/summary.ts";
 import { Timeline } from "./simulate/timeline.ts";
 import { toolNote, toolOf } from "./simulate/tool.ts";
@@ -51,6 +52,7 @@ class SimulateTab implements TabHandle {
   private readonly timeline: Timeline;
   private readonly path: ToolPath;
   private readonly exaggeration: Exaggeration;
+  private readonly stock: StockInTime;
   /** What the address says of the simulation that is on its way. */
   private wanted: Params = {};
   private readonly curves: Curves;
@@ -91,6 +93,11 @@ class SimulateTab implements TabHandle {
       () => this.keepState(),
     );
     this.exaggeration = new Exaggeration(this.view, () => this.keepState());
+    this.stock = new StockInTime(
+      this.view,
+      (e) => this.failed(e),
+      () => this.keepState(),
+    );
     this.view.onView = (view) => this.app.keep("simulate", { view: view === "iso" ? null : view });
     this.curves = new Curves({
       seek: (t) => this.player.seek(t),
@@ -105,7 +112,7 @@ class SimulateTab implements TabHandle {
     );
     this.why = new WhyHere(app);
     this.setup = new SetUpDialog(app, (path) => this.setUpSaved(path));
-    left.append(h("div", { class: "scene-bottom" }, this.path.control, this.exaggeration.element));
+    left.append(h("div", { class: "scene-bottom" }, this.stock.control, this.path.control, this.exaggeration.element));
     right.classList.add("simulate-side");
     fill(
       right,
@@ -305,6 +312,7 @@ class SimulateTab implements TabHandle {
     this.why.clear();
     this.curves.clear();
     this.path.setSimulation(null);
+    this.stock.setSimulation(null);
     this.timeline.setProgram(0, []);
     this.transport.setTime(0);
     this.source.show("", []);
@@ -364,7 +372,7 @@ class SimulateTab implements TabHandle {
     this.readout.setAxes(header.axes);
     this.player.reset(header.duration_s);
     this.timeline.setProgram(header.duration_s, header.marks);
-    this.view.setOnWorkpiece(simulation.on_workpiece);
+    this.stock.setSimulation(simulation);
     this.path.setSimulation(simulation);
     this.curves.setSimulation(simulation);
     // Before the source is here: a long one takes a second, and what one chooses meanwhile must stay.
@@ -382,6 +390,7 @@ class SimulateTab implements TabHandle {
   private takeState(params: Params): void {
     this.exaggeration.take(params);
     this.path.take(params.by);
+    this.stock.take(params);
     this.curves.take(params.curves);
     if (params.view) this.view.setView(params.view);
     const time_s = numberIn(params.t);
@@ -389,7 +398,12 @@ class SimulateTab implements TabHandle {
   }
 
   private keepState(): void {
-    this.app.keep("simulate", { ...this.exaggeration.state, by: this.path.state, curves: this.curves.state });
+    this.app.keep("simulate", {
+      ...this.exaggeration.state,
+      ...this.stock.state,
+      by: this.path.state,
+      curves: this.curves.state,
+    });
   }
 
   /** Shows the source with the errors underlined, and what is wrong. */
@@ -514,6 +528,7 @@ class SimulateTab implements TabHandle {
     this.showTool(moment, nominal);
     this.view.setPoses(nominal, actual);
     this.path.setTime(time_s);
+    this.stock.setTime(time_s);
     this.timeline.setTime(time_s);
     this.transport.setTime(time_s);
     this.curves.setTime(time_s);

@@ -6,7 +6,7 @@ import { trText } from "./index.ts";
 /** Words in a row, not a name or a value. */
 const SENTENCE = /[a-z]{2,} [a-z]/i;
 
-/** What a refusal says: that of the server as {@link told}, that of the page as it is. */
+/** What a refusal says: a sentence of the server in the language of the page, or marked as English; one of the page as it is. */
 export function refusedWith<K extends keyof HTMLElementTagNameMap>(
   tag: K,
   props: Props,

@@ -5,7 +5,8 @@ use super::simulate_document::{
     BlockStep, MarkEntry, MomentEntry, PathColour, ProgramEntry, SetUpToolEntry, SimulateAnswer,
     SimulateRequest, SimulationAtAnswer, SimulationAtRequest, SimulationBlockAnswer,
     SimulationBlockRequest, SimulationCurvesAnswer, SimulationCurvesRequest, SimulationPathAnswer,
-    SimulationPathRequest, SimulationSourceAnswer, SimulationSourceRequest,
+    SimulationPathRequest, SimulationSourceAnswer, SimulationSourceRequest, SimulationStockAnswer,
+    SimulationStockRequest,
 };
 use crate::body::{needed, short};
 use crate::desk::{Desk, Job};
@@ -21,7 +22,7 @@ use trueaxis::input::Diagnostics;
 use trueaxis::questions::{MachineChoice, ProgramChoice, Simulate};
 use trueaxis::report::{Simulation, SimulationDocument};
 use trueaxis::simulate::collide::BodyModel;
-use trueaxis::simulate::{self, Colour, Findings, Observer, Progress, Recorder, Stop};
+use trueaxis::simulate::{self, Colour, Findings, Machining, Observer, Progress, Recorder, Stop};
 
 /// Columns of a picture of curves.
 const MOST_COLUMNS: usize = 1 << 14;
@@ -48,6 +49,7 @@ impl Request for SimulateRequest {
             let place = question.machine.place();
             problems.note("not-watched", place, message, "move one of them, or leave it as it is");
         }
+        let simulation = Arc::new(simulation);
         let mut progress =
             Progress::through(&simulation.program, |part| job.tell(part * (1.0 - REST)));
         let mut recorder =
@@ -66,6 +68,7 @@ impl Request for SimulateRequest {
             machine: simulation.machine.clone(),
             recording: recorder.finish(),
             programs: sources(desk, &simulation, &found, dropped),
+            cut: found.machined.as_ref().map(|_| Arc::clone(&simulation)),
         };
         job.tell(1.0);
         let simulated = desk.simulations.put(simulated);
@@ -128,7 +131,7 @@ fn answer<'a>(
     (found, bodies): (&'a Findings, &'a [BodyModel]),
     problems: &'a Diagnostics,
 ) -> SimulateAnswer<'a> {
-    let Simulated { machine, recording, programs } = &**simulated;
+    let Simulated { machine, recording, programs, .. } = &**simulated;
     let issues = found.issues.list.iter();
     let tools = simulation.setup.tools.iter();
     SimulateAnswer {
@@ -175,6 +178,33 @@ impl Request for SimulationAtRequest {
         ];
         let moment = MomentEntry::of(&simulated.machine, &moment);
         Ok(Reply::frame(&SimulationAtAnswer { moment }, arrays))
+    }
+}
+
+impl Request for SimulationStockRequest {
+    type Answer<'a> = SimulationStockAnswer<'a>;
+
+    /// The program runs again up to the time, as it was simulated, whatever has become of its file.
+    fn answer(self, desk: &Desk, job: &Job) -> Result<Reply<Self>, Refusal> {
+        let simulated = kept(desk, self.simulation)?;
+        let cut = simulated.cut.as_ref().ok_or_else(|| {
+            let hint = "state [stock] with a `resolution` in the set-up file, and simulate again";
+            Refusal::new(422, "no-stock", "no stock was cut in this simulation", hint)
+        })?;
+        let machining = Machining::watch(&cut.setup)
+            .map_err(|(message, hint)| Refusal::new(422, "no-stock", message, &hint))?;
+        let given_up = Stop::from(job.halt.flag.clone());
+        let machined = cut
+            .machined_until(machining, self.time_s, &given_up)
+            .ok_or_else(|| Refusal::new(409, "stopped", "the cutting was stopped", "ask again"))?;
+        let bodies = machined.bodies(&cut.setup.bodies);
+        let answer = SimulationStockAnswer {
+            time_s: self.time_s,
+            left_mm3: machined.stock.volume_mm3(),
+            removed_mm3: machined.total().removed_mm3,
+            on_workpiece: bodies.iter().map(SurfaceEntry::from).collect(),
+        };
+        Ok(Reply::frame(&answer, vec![("corners_mm", corners(&bodies))]))
     }
 }
 

@@ -199,6 +199,29 @@ pub(super) struct SimulationAtRequest {
     pub(super) time_s: f64,
 }
 
+/// The stock as it is at one time.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SimulationStockRequest {
+    /// The number of the simulation.
+    pub(super) simulation: u64,
+    /// The time, s.
+    pub(super) time_s: f64,
+}
+
+/// The stock at a time. Array: `corners_mm` (f32: the corners of the triangles of `on_workpiece`, nine numbers each).
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct SimulationStockAnswer<'a> {
+    /// The time, s.
+    pub(super) time_s: f64,
+    /// What remains of the stock, mm³.
+    pub(super) left_mm3: f64,
+    /// What was removed, mm³.
+    pub(super) removed_mm3: f64,
+    /// Stock, part and fixtures of the set-up.
+    pub(super) on_workpiece: Vec<SurfaceEntry<'a>>,
+}
+
 /// A moment. Arrays: `nominal`, `actual` (f64: for each body its rotation row by row, then its origin, mm, in the
 /// machine frame).
 #[derive(Debug, Serialize, JsonSchema)]

@@ -7,6 +7,7 @@ import type {
   ServeSimulationCurves,
   ServeSimulationPath,
   ServeSimulationPathRequest,
+  ServeSimulationStock,
 } from "../../../types.d.ts";
 import type { Model, Question, Reply, Request } from "../../api.ts";
 import type { Frame } from "../../frame.ts";
@@ -21,6 +22,7 @@ export type SetUpTool = ServeSimulate["tools"][number];
 /** Where everything is at one time. */
 export type Moment = ServeSimulationAt["moment"];
 export type Colour = ServeSimulationPathRequest["colour"];
+export type StockHeader = ServeSimulationStock;
 export type PathHeader = ServeSimulationPath;
 export type CurvesHeader = ServeSimulationCurves;
 
@@ -71,6 +73,10 @@ export class Simulation {
 
   at(time_s: number): Promise<Frame<{ moment: Moment }>> {
     return this.ask("simulation-at", { time_s });
+  }
+
+  stock(time_s: number): Promise<Frame<StockHeader>> {
+    return this.ask("simulation-stock", { time_s });
   }
 
   async step(from_s: number, step: "next" | "previous"): Promise<number> {
