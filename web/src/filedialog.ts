@@ -1,6 +1,7 @@
 /** A small TOML file that is stated in a form, and edited as text from then on. */
 
 import { tr } from "./words/index.ts";
+import { refusedWith } from "./words/told.ts";
 import type { App } from "./app.ts";
 import { Refusal } from "./api.ts";
 import { fill, h, type Child } from "./dom.ts";
@@ -129,7 +130,11 @@ export class FileDialog {
       stated.saved(pathOf(stated));
     } catch (error) {
       const refusal = Refusal.from(error);
-      this.note.textContent = [refusal.message, refusal.hint].filter(Boolean).join(": ");
+      fill(
+        this.note,
+        refusedWith("span", {}, refusal, refusal.message),
+        refusal.hint ? [": ", refusedWith("span", {}, refusal, refusal.hint)] : null,
+      );
     } finally {
       this.save.disabled = false;
     }

@@ -169,6 +169,43 @@ fn the_other_answers_agree(served: &Served, header: &Value, duration_s: f64) {
     assert_eq!(source.json(), json!({ "name": COLLISION, "text": text }));
 }
 
+/// The stock at a time is that of the program as it was simulated: a subprogram that is gone or another one now changes nothing.
+#[test]
+fn the_stock_at_a_time_is_that_of_the_program_that_was_simulated() {
+    let folder = client::project("stock");
+    let ring = std::fs::read_to_string(repository().join("examples/02_simulate/ring-fanuc.nc"));
+    let ring = ring.expect("the program");
+    let at = |word: &str| ring.find(word).expect("a block");
+    let (head, body, tail) =
+        (&ring[..at("N90 ")], &ring[at("N90 ")..at("N2500 ")], &ring[at("N2500 ")..]);
+    let sub = folder.join("O0007.nc");
+    let write = |path: &std::path::Path, text: &str| std::fs::write(path, text).expect("a file");
+    write(&folder.join("main.nc"), &format!("{head}M98 P0007\n{tail}"));
+    write(&sub, &format!("%\nO0007\n{body}M99\n%\n"));
+    let copy = |from: &str, to: &str| {
+        std::fs::copy(repository().join(from), folder.join(to)).expect("a copy");
+    };
+    copy("examples/02_simulate/ring-fanuc.setup.toml", "main.setup.toml");
+    copy(I5, "machine.toml");
+    let served = client::serve(folder, &OPEN);
+    let body = json!({ "machine": "machine.toml", "program": "main.nc" });
+    let simulated = ask(&served, "simulate", &body).header;
+    let removed = &simulated["document"]["stock"]["removed_mm3"];
+    assert!(removed.as_f64() > Some(400.0), "{removed}");
+    let number = &simulated["simulation"];
+    let end = json!({ "simulation": number, "time_s": simulated["duration_s"] });
+    for change in [None, Some("%\nO0007\nG1 X50. F100.\nM99\n%\n"), Some("")] {
+        match change {
+            Some("") => std::fs::remove_file(&sub).expect("it was there"),
+            Some(text) => write(&sub, text),
+            None => {}
+        }
+        assert_eq!(&ask(&served, "simulation-stock", &end).header["removed_mm3"], removed);
+    }
+    let early = json!({ "simulation": number, "time_s": -1.0 });
+    assert_eq!(ask(&served, "simulation-stock", &early).header["removed_mm3"], json!(0.0));
+}
+
 #[test]
 fn what_cannot_be_simulated_is_refused_by_name() {
     let served = serve_kept(repository(), &OPEN);

@@ -161,7 +161,9 @@ impl Job {
         Findings { run, summary, issues, drift, machined }
     }
 
-    /// What became of the stock up to a time of the program, s: what comes later is not executed. `None` if it was given up.
+    /// What became of the stock up to a time of the program, s: what comes later is not executed.
+    ///
+    /// `None` if it was given up, or if the run met errors before that time although they end it.
     pub fn machined_until(
         &self,
         machining: Machining,
@@ -173,8 +175,9 @@ impl Job {
         let mut end = End { end_s, given_up, stop: &stop };
         let options = Options { stop: stop.clone(), ..self.options.clone() };
         let mut observers: [&mut dyn Observer; 2] = [&mut machining, &mut end];
-        simulate(&self.machine, &self.program, &self.setup, &options, &mut observers);
-        (!given_up.is_requested()).then(|| machining.finish(&[]).0)
+        let run = simulate(&self.machine, &self.program, &self.setup, &options, &mut observers);
+        let is_whole = options.keep_going || !run.problems.has_errors();
+        (is_whole && !given_up.is_requested()).then(|| machining.finish(&[]).0)
     }
 
     /// The errors of a machine are known within its travel only: a deviation beyond it is a formula carried on.

@@ -378,7 +378,7 @@ class SimulateTab implements TabHandle {
     // Before the source is here: a long one takes a second, and what one chooses meanwhile must stay.
     const { wanted } = this;
     this.wanted = {};
-    this.takeState({ ...wanted, t: wanted.t ?? "0" });
+    this.takeState({ ...wanted, t: String(numberIn(wanted.t) ?? 0) });
     this.keepState();
     this.app.say("");
     await this.showProgram(0);

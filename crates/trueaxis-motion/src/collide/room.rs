@@ -229,6 +229,7 @@ mod tests {
                 (Some(0), Vec3::new(40.0, -60.0, 20.0)),
                 (Some(0), Vec3::new(-80.0, 30.0, 20.0)),
                 (None, Vec3::new(150.0, 0.0, -200.0)),
+                (Some(last - 3), Vec3::new(-90.0, 20.0, 60.0)),
                 (Some(last), Vec3::new(0.0, 0.0, 120.0)),
                 (Some(last), Vec3::new(60.0, 0.0, 200.0)),
             ]
@@ -253,7 +254,8 @@ mod tests {
             }
             let part = 1.0 / f64::from(50 - step % 50);
             let to: Command = std::array::from_fn(|i| at[i] + part * (goal[i] - at[i]));
-            let allowed = Allowed::default();
+            // Feed and rapid in turn: what one allows holds no more in the other.
+            let allowed = Allowed { cutter_in_stock: step % 40 < 30, ..Allowed::default() };
             let sweep =
                 Sweep { from: &at, to: &to, clearance_mm: 2.0, resolution_mm: 0.5, allowed };
             let mut found = Vec::new();

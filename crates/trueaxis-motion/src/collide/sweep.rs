@@ -200,7 +200,7 @@ impl Scene {
         sweep: &Sweep<'_>,
     ) -> Option<Contact> {
         let mut found = None;
-        while (over - apart) * way_mm > BEGIN_MM {
+        while (over - apart) * way_mm > BEGIN_MM && self.work < self.most_work {
             let t = 0.5 * (apart + over);
             if t <= apart || t >= over {
                 break;

@@ -49,7 +49,6 @@ impl Request for SimulateRequest {
             let place = question.machine.place();
             problems.note("not-watched", place, message, "move one of them, or leave it as it is");
         }
-        let simulation = Arc::new(simulation);
         let mut progress =
             Progress::through(&simulation.program, |part| job.tell(part * (1.0 - REST)));
         let mut recorder =
@@ -64,10 +63,12 @@ impl Request for SimulateRequest {
         if problems.has_errors() && !simulation.options.keep_going {
             return Err(Refusal::unusable(&problems));
         }
+        let programs = sources(desk, &simulation, &found, dropped);
+        let simulation = Arc::new(again(simulation, &programs));
         let simulated = Simulated {
             machine: simulation.machine.clone(),
             recording: recorder.finish(),
-            programs: sources(desk, &simulation, &found, dropped),
+            programs,
             cut: found.machined.as_ref().map(|_| Arc::clone(&simulation)),
         };
         job.tell(1.0);
@@ -103,6 +104,15 @@ impl SimulateRequest {
         let no_collisions = !self.collisions.unwrap_or(true);
         Ok(Simulate { machine, program, no_collisions, ..Simulate::default() })
     }
+}
+
+/// What was simulated, to be run again for the stock: with the subprograms as they ran, without the bodies of the machine.
+fn again(simulation: simulate::Job, programs: &[Source]) -> simulate::Job {
+    let ran =
+        programs.iter().skip(1).map(|source| (source.name.clone().into(), source.text.clone()));
+    let files = simulation.setup.files.clone().with_texts(ran);
+    let setup = simulate::SetUp { files, ..simulation.setup };
+    simulate::Job { setup, models: Vec::new(), ..simulation }
 }
 
 /// The texts of all programs that ran.
@@ -194,9 +204,9 @@ impl Request for SimulationStockRequest {
         let machining = Machining::watch(&cut.setup)
             .map_err(|(message, hint)| Refusal::new(422, "no-stock", message, &hint))?;
         let given_up = Stop::from(job.halt.flag.clone());
-        let machined = cut
-            .machined_until(machining, self.time_s, &given_up)
-            .ok_or_else(|| Refusal::new(409, "stopped", "the cutting was stopped", "ask again"))?;
+        let machined = cut.machined_until(machining, self.time_s, &given_up).ok_or_else(|| {
+            Refusal::new(409, "stopped", "the stock could not be cut again", "simulate again")
+        })?;
         let bodies = machined.bodies(&cut.setup.bodies);
         let answer = SimulationStockAnswer {
             time_s: self.time_s,

@@ -1,8 +1,9 @@
 /** Where the tool tip is, and which error puts it there. */
 
 import { tr } from "../../words/index.ts";
+import { refusedWith } from "../../words/told.ts";
 import { diagnosticList } from "../../app.ts";
-import type { Diagnostic, PoseDocument, Vector } from "../../api.ts";
+import type { Diagnostic, PoseDocument, Refusal, Vector } from "../../api.ts";
 import { fill, h } from "../../dom.ts";
 import { bars, type BarSpec } from "../../figure/bars.ts";
 import type { Figure } from "../../figure/figure.ts";
@@ -44,12 +45,15 @@ export class PosePanels {
   }
 
   /** No pose: why not. The numbers of the last one go. */
-  refuse(message: string, hint: string, diagnostics: readonly Diagnostic[]): void {
+  refuse(refusal: Refusal): void {
     this.pose = null;
     const list =
-      diagnostics.length > 0
-        ? diagnosticList(diagnostics)
-        : [h("p", { class: "field-problem" }, message), h("p", { class: "hint" }, hint)];
+      refusal.diagnostics.length > 0
+        ? diagnosticList(refusal.diagnostics)
+        : [
+            refusedWith("p", { class: "field-problem" }, refusal, refusal.message),
+            refusedWith("p", { class: "hint" }, refusal, refusal.hint),
+          ];
     fill(this.tip, h("h2", {}, tr`Tool tip, as the workpiece sees it`), list);
     this.total.textContent = "";
     this.bar?.update({ title: "", unit: "µm", bars: [] });

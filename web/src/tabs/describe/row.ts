@@ -1,6 +1,7 @@
 /** One error of the machine file in the table: what it says, its curve, a field to edit it in place. */
 
 import { tr, trText } from "../../words/index.ts";
+import { refusedWith } from "../../words/told.ts";
 import { Refusal, type ErrorEntry, type Link } from "../../api.ts";
 import { fill, h } from "../../dom.ts";
 import { markedSparkline, type Sparkline } from "../../figure/sparkline.ts";
@@ -183,8 +184,9 @@ export class ErrorRow {
     const first = refusal.diagnostics.find((d) => d.severity === "error");
     fill(
       this.problem,
-      first?.message ?? refusal.message,
-      h("span", { class: "hint" }, ` ${first?.hint ?? refusal.hint}`),
+      refusedWith("span", {}, refusal, first?.message ?? refusal.message),
+      " ",
+      refusedWith("span", { class: "hint" }, refusal, first?.hint ?? refusal.hint),
     );
   }
 

@@ -296,7 +296,7 @@ export class DescribeTab implements TabHandle {
       this.head.askName(
         refusal.code === "conflict"
           ? tr`${path} is there already; choose another name`
-          : `${refusal.message}. ${refusal.hint}`,
+          : `${trText(refusal.message)}. ${trText(refusal.hint)}`,
       );
     }
   }
@@ -378,7 +378,8 @@ export class DescribeTab implements TabHandle {
   /** A file that never was a machine here: there is no picture of it. */
   private showUnusable(path: string): void {
     this.pages.go("file");
-    this.pose.refuse(tr`${path} cannot be used yet`, tr`The page “File” shows what is wrong, line by line.`, []);
+    const hint = tr`The page “File” shows what is wrong, line by line.`;
+    this.pose.refuse(new Refusal("unusable", tr`${path} cannot be used yet`, hint));
     this.head.showDeviation(null);
   }
 
@@ -490,7 +491,7 @@ export class DescribeTab implements TabHandle {
       this.app.fail(error);
       return;
     }
-    this.pose.refuse(refusal.message, refusal.hint, refusal.diagnostics);
+    this.pose.refuse(refusal);
     this.errors.showPose(null, this.axes.at);
     this.head.showDeviation(null);
   }

@@ -1,6 +1,6 @@
 /** One long question at a time, with its progress in the status line; and what stands at the head of a tab. */
 
-import { told } from "../../words/told.ts";
+import { refusedWith } from "../../words/told.ts";
 import { tr, trText } from "../../words/index.ts";
 import { diagnosticList, type App } from "../../app.ts";
 import { Refusal, type Diagnostic, type ProjectFile, type Reply, type Request } from "../../api.ts";
@@ -79,8 +79,8 @@ export function showRefusal(host: HTMLElement, error: unknown, ...more: Child[])
     h(
       "section",
       { class: "panel refused", role: "alert" },
-      isShown ? null : told("h2", {}, refusal.message),
-      isShown || !refusal.hint ? null : told("p", { class: "hint" }, refusal.hint),
+      isShown ? null : refusedWith("h2", {}, refusal, refusal.message),
+      isShown || !refusal.hint ? null : refusedWith("p", { class: "hint" }, refusal, refusal.hint),
       list(errors),
       others.length > 0
         ? h(

@@ -75,8 +75,8 @@ export class Simulation {
     return this.ask("simulation-at", { time_s });
   }
 
-  stock(time_s: number): Promise<Frame<StockHeader>> {
-    return this.ask("simulation-stock", { time_s });
+  stock(time_s: number, signal: AbortSignal): Promise<Frame<StockHeader>> {
+    return this.app.api.ask("simulation-stock", { simulation: this.header.simulation, time_s }, { signal });
   }
 
   async step(from_s: number, step: "next" | "previous"): Promise<number> {
