@@ -70,14 +70,29 @@ async function fluid(browser) {
   const own = await serve(folder);
   try {
     const { page } = await open(browser, own.address);
+    await page.addInitScript(() => {
+      globalThis.longest_ms = 0;
+      const seen = (list) => {
+        for (const { duration } of list.getEntries()) globalThis.longest_ms = Math.max(globalThis.longest_ms, duration);
+      };
+      new PerformanceObserver(seen).observe({ type: "longtask", buffered: true });
+    });
+    await page.reload();
+    const longest = async (what) =>
+      console.log(
+        `longest task ${what}: ${(await page.evaluate(() => globalThis.longest_ms)).toFixed(0)} ms (below 50: 0)`,
+      );
     const started = Date.now();
     await page.goto(new URL("#simulate?machine=machine/machine.toml&program=long.nc", own.address).href);
     await page.waitForSelector('.tab-simulate.simulated [data-test="place"]:not(:empty)', { timeout: 600_000 });
     console.log(`10⁶ blocks simulated and shown after ${((Date.now() - started) / 1000).toFixed(1)} s`);
+    await page.waitForSelector(".source-line");
+    await longest("until it is shown");
     await page.click('[data-test="look-at-path"]');
     await page.selectOption('[data-test="factor"]', "100");
     await page.click('[data-act="play"]');
     await page.waitForTimeout(2000);
+    await longest("while it plays");
     const frames = await page.evaluate(async () => {
       const [from, began] = [globalThis.trueaxisScene.frames(), performance.now()];
       await new Promise((done) => setTimeout(done, 5000));

@@ -114,7 +114,7 @@ export async function open(browser, address, { dark = false, width = 1400, heigh
   page.on("pageerror", (error) => complaints.push(`error: ${error.message}`));
   page.on("request", (request) => {
     const url = request.url();
-    const own = url.startsWith(new URL("/", address).href) || url.startsWith("data:") || url.startsWith("blob:");
+    const own = url.startsWith(`${new URL(address).origin}/`) || url.startsWith("data:") || url.startsWith("blob:");
     if (!own) complaints.push(`request to ${url}`);
   });
   page.setDefaultTimeout(Number(process.env.PATIENCE ?? 30_000));
