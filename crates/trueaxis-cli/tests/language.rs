@@ -146,9 +146,7 @@ fn told(asked: &str, language: &str, folder: &Folder) -> Vec<String> {
     let html = std::fs::read_to_string(&page).expect("the report");
     let (_, body) = html.split_once("<body>").expect("a body");
     let between = body.split('>').filter_map(|piece| piece.split('<').next());
-    let texts: Vec<String> =
-        between.map(str::trim).filter(|text| !text.is_empty()).map(str::to_owned).collect();
-    texts
+    between.map(str::trim).filter(|text| !text.is_empty()).map(str::to_owned).collect()
 }
 
 #[test]

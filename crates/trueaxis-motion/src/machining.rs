@@ -328,6 +328,11 @@ impl Machining {
         if from_s >= self.end_s {
             return;
         }
+        // What lies after the end is cut off.
+        let (to, time_s) = match time_s > self.end_s {
+            true => (from.towards(&to, (self.end_s - from_s) / (time_s - from_s)), self.end_s),
+            false => (to, time_s),
+        };
         let way_mm = (to.tip_mm - from.tip_mm).norm();
         let turned_mm = reach_mm * angle(&from.axis, &to.axis);
         let count = ((way_mm + turned_mm) / self.spacing_mm).ceil().max(1.0);
@@ -339,16 +344,11 @@ impl Machining {
         let lasts_s = (time_s - from_s) / count;
         for k in 1..=count as usize {
             let part = k as f64 / count;
-            let is_end = from_s + (time_s - from_s) * part > self.end_s;
-            let part = if is_end { (self.end_s - from_s) / (time_s - from_s) } else { part };
             self.poses.push(from.towards(&to, part));
             let time_s = from_s + (time_s - from_s) * part;
             self.moments.push(Moment { origin, time_s, lasts_s, is_rapid });
             if self.poses.len() >= CHUNK {
                 self.flush();
-            }
-            if is_end {
-                break;
             }
         }
     }

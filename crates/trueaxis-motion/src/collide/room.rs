@@ -67,15 +67,11 @@ impl Bound {
 impl Room {
     /// Takes the way between two commands off; `false` if there is no room for it, or other pairs count there.
     pub fn take(&mut self, from: &Command, to: &Command, allowed: Allowed) -> bool {
-        let way = way(from, to);
+        let way = std::array::from_fn(|axis| (to[axis] - from[axis]).abs());
         self.of_near.take(&way);
         self.of_far.take(&way);
         allowed == self.allowed && self.of_near.is_free() && self.of_far.is_free()
     }
-}
-
-fn way(from: &Command, to: &Command) -> Command {
-    std::array::from_fn(|axis| (to[axis] - from[axis]).abs())
 }
 
 fn ways(axes: &[Axis], [linear, rotary]: [f64; 2]) -> Command {
@@ -154,11 +150,11 @@ impl Scene {
             room.of_near.add(apart_mm - watch_mm, &between(&first, &second));
         }
         self.pairs = pairs;
-        room.of_near.take(&way(sweep.from, sweep.to));
+        room.of_near.take(&sweep.way());
         room.of_near.is_free() && self.work < self.most_work
     }
 
-    fn reaches(&self, ways: &Command) -> Vec<Command> {
+    pub(super) fn reaches(&self, ways: &Command) -> Vec<Command> {
         (0..self.members.len()).map(|member| self.reach_of(member, ways)).collect()
     }
 
@@ -188,7 +184,7 @@ impl Scene {
 }
 
 /// How far two bodies move as seen from each other, per mm and rad of each axis: one that carries both moves neither.
-fn between(first: &Command, second: &Command) -> Command {
+pub(super) fn between(first: &Command, second: &Command) -> Command {
     let mut reach = Command::default();
     for axis in 0..MAX_AXES {
         let carries_both = first[axis] > 0.0 && second[axis] > 0.0;

@@ -5,10 +5,11 @@
 //! of each axis: a linear axis moves all that it carries by |Δq|, a rotary one by at most |Δq|
 //! times the reach of the body from its axis.
 
+use super::room::between;
 use super::scene::{Allowed, Contact, Distance, Pair, Scene, WORK_OF_POSES, relative};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Bed, Body, Pose};
-use trueaxis_machine::axis::{AxisKind, Command, MAX_AXES};
+use trueaxis_machine::axis::Command;
 
 /// Most questions for one pair in one sweep; beyond, the steps grow longer than the resolution.
 const MOST_STEPS: f64 = 1e5;
@@ -16,9 +17,6 @@ const MOST_STEPS: f64 = 1e5;
 const BEGIN_MM: f64 = 1e-9;
 /// Error motions change along the path, by less than a thousandth of it on any machine tool.
 pub(super) const ERROR_SLOPE: f64 = 1.001;
-
-/// Entry k: how far the points of a body can move in the frame of the body k steps from the bed, mm.
-type Distances = [f64; MAX_AXES + 2];
 
 /// A straight path in axis space, and what to look for along it.
 #[derive(Debug, Clone, Copy)]
@@ -39,6 +37,11 @@ impl Sweep<'_> {
     /// Bodies closer than this are watched: no wall is passed between two questions.
     pub(super) fn watch_mm(&self) -> f64 {
         self.clearance_mm.max(0.5 * self.resolution_mm)
+    }
+
+    /// How far each axis goes.
+    pub(super) fn way(&self) -> Command {
+        std::array::from_fn(|axis| (self.to[axis] - self.from[axis]).abs())
     }
 
     fn command(&self, t: f64) -> Command {
@@ -73,12 +76,13 @@ impl Scene {
         contacts: &mut Vec<Contact>,
     ) -> bool {
         self.place(&poses_at(sweep.from));
-        let distances: Vec<Distances> =
-            (0..self.members.len()).map(|m| self.distances_mm(m, sweep)).collect();
+        let way = sweep.way();
+        let reaches = self.reaches(&way);
         let watch = sweep.watch_mm();
         let mut pairs = std::mem::take(&mut self.pairs);
         for pair in &mut pairs {
-            let distance = self.distance_of_pair_mm(pair, &distances);
+            let reach = between(&reaches[pair.first], &reaches[pair.second]);
+            let distance: f64 = way.iter().zip(reach).map(|(way, reach)| way * reach).sum();
             if self.is_allowed(pair, sweep.allowed) || self.free_mm(pair) - distance > watch {
                 continue;
             }
@@ -88,48 +92,11 @@ impl Scene {
         self.work < self.most_work
     }
 
-    /// The distances that a member moves during the sweep in the frame of each body between it and the bed.
-    fn distances_mm(&self, member: usize, sweep: &Sweep<'_>) -> Distances {
-        let (level, side) = self.level(member);
-        let own = &self.members[member];
-        let centre = own.now.turn * own.mesh.centre_mm() + own.now.shift_mm;
-        let mut distances = [0.0; MAX_AXES + 2];
-        for step in (1..=level).rev() {
-            let body = match side {
-                1 => self.workpiece_side + step - 1,
-                _ => self.workpiece_side - step,
-            };
-            let beyond = distances[step];
-            let distance = self.axis_of[body].map_or(0.0, |i| {
-                let turned = (sweep.to[i] - sweep.from[i]).abs() * ERROR_SLOPE;
-                match self.axes[i].kind {
-                    AxisKind::Linear => turned,
-                    AxisKind::Rotary => {
-                        let reach = self.reach_mm(body, i, &centre) + own.mesh.radius_mm();
-                        turned * (reach + beyond)
-                    }
-                }
-            });
-            distances[step - 1] = beyond + distance;
-        }
-        distances
-    }
-
     /// How far a point of the bed frame is from a rotary axis where it is now.
     pub(super) fn reach_mm(&self, body: usize, axis: usize, point: &Vec3) -> f64 {
         let node = &self.nodes_now[body];
         let direction = node.linear() * self.axes[axis].direction;
         (point - node.shift_mm()).cross(&direction).norm() / direction.norm()
-    }
-
-    fn distance_of_pair_mm(&self, pair: &Pair, distances: &[Distances]) -> f64 {
-        let (a, b) = (self.level(pair.first), self.level(pair.second));
-        let (of_a, of_b) = (&distances[pair.first], &distances[pair.second]);
-        if a.1 * b.1 < 0 {
-            return of_a[0] + of_b[0];
-        }
-        // One is further out on the same side: it moves in the frame of the other.
-        if a.0 > b.0 { of_a[b.0] } else { of_b[a.0] }
     }
 
     fn advance(
@@ -264,15 +231,23 @@ mod tests {
             let sweep = Sweep { from: &from, to: &to, clearance_mm, resolution_mm, allowed };
             scene.place(&poses_at(&from));
             for (m, member) in scene.members.iter().enumerate() {
-                let distances = scene.distances_mm(m, &sweep);
+                let (way, reaches) = (sweep.way(), scene.reaches(&sweep.way()));
                 let (level, _) = scene.level(m);
                 let mut longest = 0.0_f64;
-                for (k, distance) in distances[..level].iter().enumerate() {
+                let on_level = |k: usize| {
+                    (0..scene.members.len()).find(|i| {
+                        let (a, b) = (scene.level(*i), scene.level(m));
+                        a.0 == k && a.1 == b.1
+                    })
+                };
+                let distance_in = |k: usize| -> f64 {
+                    let still = Command::default();
+                    let inner = on_level(k).map_or(&still, |i| &reaches[i]);
+                    way.iter().zip(between(inner, &reaches[m])).map(|(w, r)| w * r).sum()
+                };
+                for k in 0..level {
+                    let (inner, distance) = (on_level(k), distance_in(k));
                     let frame = |poses: &[Pose<Bed, Body>]| {
-                        let inner = (0..scene.members.len()).find(|i| {
-                            let (a, b) = (scene.level(*i), scene.level(m));
-                            a.0 == k && a.1 == b.1
-                        });
                         let still = Placed { turn: Mat3::identity(), shift_mm: Vec3::zeros() };
                         inner.map_or(still, |i| scene.members[i].at(poses))
                     };
@@ -289,8 +264,9 @@ mod tests {
                     }
                 }
                 assert!(
-                    level < 2 || distances[0] < 4.0 * longest + 1e-9,
-                    "{distances:?} for {longest}"
+                    level < 2 || distance_in(0) < 4.0 * longest + 1e-9,
+                    "{} for {longest}",
+                    distance_in(0)
                 );
             }
         }

@@ -69,7 +69,7 @@ impl Request for SimulateRequest {
             machine: simulation.machine.clone(),
             recording: recorder.finish(),
             programs,
-            cut: found.machined.as_ref().map(|_| Arc::clone(&simulation)),
+            cut: found.machined.is_some().then(|| Arc::clone(&simulation)),
         };
         job.tell(1.0);
         let simulated = desk.simulations.put(simulated);
@@ -108,8 +108,9 @@ impl SimulateRequest {
 
 /// What was simulated, to be run again for the stock: with the subprograms as they ran, without the bodies of the machine.
 fn again(simulation: simulate::Job, programs: &[Source]) -> simulate::Job {
-    let ran =
-        programs.iter().skip(1).map(|source| (source.name.clone().into(), source.text.clone()));
+    // A text that could not be read any more is asked of the disk, which refuses it.
+    let subprograms = programs.iter().skip(1).filter(|source| !source.text.is_empty());
+    let ran = subprograms.map(|source| (source.name.clone().into(), source.text.clone()));
     let files = simulation.setup.files.clone().with_texts(ran);
     let setup = simulate::SetUp { files, ..simulation.setup };
     simulate::Job { setup, models: Vec::new(), ..simulation }
