@@ -155,11 +155,11 @@ impl Collisions {
         let poses = |command: &Command| machine.body_poses(command, &ErrorValues::default());
         self.contacts.clear();
         self.most_work += self.work_of_move(&from, &node.command);
-        let taken = |room: &mut Room| room.take(&from, &node.command, sweep.allowed);
+        let holds = |room: &Room| room.holds(&node.command, sweep.allowed);
         let before = self.scene.work();
         self.scene.limit_work(before + self.most_work.saturating_sub(self.work));
         let mut renewed = |room: &mut Room| self.scene.renew(room, &poses, &sweep);
-        let is_free = self.room.as_mut().is_some_and(|room| taken(room) || renewed(room));
+        let is_free = self.room.as_mut().is_some_and(|room| holds(room) || renewed(room));
         let is_whole = is_free || self.scene.sweep(&poses, &sweep, &mut self.contacts);
         self.work += self.scene.work() - before;
         if is_free {
@@ -170,8 +170,7 @@ impl Collisions {
         if !is_whole {
             self.ended_at = Some(node.origin);
         }
-        let room = self.contacts.is_empty().then(|| self.scene.room(&sweep));
-        self.room = room.and_then(|mut room| taken(&mut room).then_some(room));
+        self.room = self.contacts.is_empty().then(|| self.scene.room(&sweep)).filter(holds);
         for contact in &self.contacts {
             let time_s = from_s + contact.at * (stamp.time_s - from_s);
             let Some(kind) = kind(contact) else { continue };

@@ -1,14 +1,15 @@
 //! How far the axes may go before any body can come near another: one bound for many blocks.
 
 use super::scene::{Allowed, Distance, Scene};
-use super::sweep::{ERROR_SLOPE, Sweep};
+use super::sweep::Sweep;
+use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Bed, Body, Pose};
-use trueaxis_machine::axis::{Axis, AxisKind, Command, MAX_AXES};
+use trueaxis_machine::axis::{AxisKind, Command, MAX_AXES};
 
-/// The room around the place where a sweep began that found no contact, whichever way the axes take.
+/// The room around the place where a sweep began that found no contact: as long as the axes are in it, no pair can be near.
 ///
-/// A body moves in the frame of another by no more than the ways of the axes between them, of rotary ones times its distance from
-/// the axis: |Δ| ≤ Σ w_k (linear) + Σ φ_k (r_k + b_k), r_k at the place and b_k what axes further out have added to it.
+/// With the axes of the chain where they stand at the place, a point goes to T₁(T₂(… p)), and as each T leaves distances as they are,
+/// |T₁(T₂(… p)) − p| ≤ Σ |T_k(p) − p|: the way of a linear axis, of a rotary one at most its angle times the distance of p from it.
 #[derive(Debug, Clone)]
 pub struct Room {
     allowed: Allowed,
@@ -18,78 +19,57 @@ pub struct Room {
     of_far: Bound,
 }
 
+/// Error motions change along the path, by less than a thousandth of it on any machine tool.
+const ERROR_SLOPE: f64 = 1.001;
 /// Pairs with more than so many times the least room are far.
 const FAR: f64 = 8.0;
-/// For how long ways of the axes a room of near and of far pairs is counted, mm and rad: the longer, the larger is b_k.
-const WAYS_NEAR: [f64; 2] = [100.0, 0.2];
-const WAYS_FAR: [f64; 2] = [500.0, 1.0];
 
-/// One bound for many pairs. A pair has the room m beyond the clearance and loses at most Σ a_k w_k of it while axis k goes w_k. With
-/// ρ_k the largest a_k / m of all pairs, Σ a_k w_k < m for each of them as long as Σ ρ_k w_k < 1.
+/// One bound for many pairs. A pair has the room m beyond the clearance and loses at most Σ a_k w_k of it while axis k is w_k from the
+/// place. With ρ_k the largest a_k / m of all pairs, Σ a_k w_k < m for each of them where Σ ρ_k w_k < 1.
 #[derive(Debug, Clone, Copy)]
 struct Bound {
-    /// Σ ρ_k w_k so far.
-    used: f64,
+    place: Command,
     /// ρ_k, per mm and rad.
     rates: Command,
-    /// How far each axis may still go.
-    ways: Command,
+    /// A pair has no room.
+    is_closed: bool,
 }
 
 impl Bound {
-    fn new(ways: Command) -> Self {
-        Self { used: 0.0, rates: Command::default(), ways }
+    fn around(place: &Command) -> Self {
+        Self { place: *place, rates: Command::default(), is_closed: false }
     }
 
-    /// Counts a pair in; without room there is none for all.
     fn add(&mut self, room_mm: f64, reach: &Command) {
-        if room_mm.is_nan() || room_mm <= 0.0 {
-            self.used = 1.0;
-        }
+        self.is_closed |= room_mm.is_nan() || room_mm <= 0.0;
         for (rate, of_pair) in self.rates.iter_mut().zip(reach) {
             *rate = rate.max(of_pair / room_mm);
         }
     }
 
-    fn take(&mut self, way: &Command) {
-        for (axis, way) in way.iter().enumerate() {
-            self.ways[axis] -= way;
-            self.used += way * self.rates[axis];
-        }
-    }
-
-    /// NaN is no room.
-    fn is_free(&self) -> bool {
-        self.used < 1.0 && self.ways.iter().all(|way| *way >= 0.0)
+    /// NaN is not in it.
+    fn holds(&self, command: &Command) -> bool {
+        let used = |axis: usize| self.rates[axis] * (command[axis] - self.place[axis]).abs();
+        !self.is_closed && (0..MAX_AXES).map(used).sum::<f64>() < 1.0
     }
 }
 
 impl Room {
-    /// Takes the way between two commands off; `false` if there is no room for it, or other pairs count there.
-    pub fn take(&mut self, from: &Command, to: &Command, allowed: Allowed) -> bool {
-        let way = std::array::from_fn(|axis| (to[axis] - from[axis]).abs());
-        self.of_near.take(&way);
-        self.of_far.take(&way);
-        allowed == self.allowed && self.of_near.is_free() && self.of_far.is_free()
+    /// Whether nothing can be near while the axes go straight there from a place that is in the room: the sum of the bound is largest at
+    /// an end.
+    pub fn holds(&self, command: &Command, allowed: Allowed) -> bool {
+        allowed == self.allowed && self.of_near.holds(command) && self.of_far.holds(command)
     }
-}
-
-fn ways(axes: &[Axis], [linear, rotary]: [f64; 2]) -> Command {
-    std::array::from_fn(|i| match axes.get(i).map(|axis| axis.kind) {
-        Some(AxisKind::Rotary) => rotary,
-        _ => linear,
-    })
 }
 
 impl Scene {
     /// The room around the place where a sweep began that found no contact.
     pub fn room(&self, sweep: &Sweep<'_>) -> Room {
-        let [near, far] = [WAYS_NEAR, WAYS_FAR].map(|longest| ways(&self.axes, longest));
         let mut room = Room {
             allowed: sweep.allowed,
             near: Vec::new(),
-            of_near: Bound::new(near),
-            of_far: Bound::new(far),
+            of_near: Bound::around(sweep.from),
+            of_far: Bound::around(sweep.from),
         };
         let watched = |pair: &usize| !self.is_allowed(&self.pairs[*pair], sweep.allowed);
         let rooms: Vec<(usize, f64)> = (0..self.pairs.len())
@@ -101,37 +81,36 @@ impl Scene {
             })
             .collect();
         let least_mm = rooms.iter().map(|(_, room_mm)| *room_mm).fold(f64::INFINITY, f64::min);
-        let [in_near, in_far] = [near, far].map(|ways| self.reaches(&ways));
+        let reaches = self.reaches(&Command::default());
         for (index, room_mm) in rooms {
             let pair = &self.pairs[index];
-            let (bound, reach) = match room_mm > FAR * least_mm {
-                true => (&mut room.of_far, &in_far),
+            let bound = match room_mm > FAR * least_mm {
+                true => &mut room.of_far,
                 false => {
                     room.near.push(index);
-                    (&mut room.of_near, &in_near)
+                    &mut room.of_near
                 }
             };
-            bound.add(room_mm, &between(&reach[pair.first], &reach[pair.second]));
+            bound.add(room_mm, &between(&reaches[pair.first], &reaches[pair.second]));
         }
         room
     }
 
-    /// Asks the near pairs again where a sweep begins, after [`Room::take`] found no room for its way; `false` if there is none now,
-    /// either.
+    /// Asks the near pairs again where a sweep begins that leads out of the room; `false` if it leads out of that, too.
     pub fn renew(
         &mut self,
         room: &mut Room,
         poses_at: &dyn Fn(&Command) -> Vec<Pose<Bed, Body>>,
         sweep: &Sweep<'_>,
     ) -> bool {
-        if sweep.allowed != room.allowed || !room.of_far.is_free() {
+        if sweep.allowed != room.allowed || !room.of_far.holds(sweep.to) {
             return false;
         }
-        let (watch_mm, longest) = (sweep.watch_mm(), ways(&self.axes, WAYS_NEAR));
+        let (watch_mm, still) = (sweep.watch_mm(), Command::default());
         let poses = poses_at(sweep.from);
         self.nodes_now.clone_from(&poses);
         let mut pairs = std::mem::take(&mut self.pairs);
-        room.of_near = Bound::new(longest);
+        room.of_near = Bound::around(sweep.from);
         for index in &room.near {
             let pair = &mut pairs[*index];
             let members = [pair.first, pair.second];
@@ -146,19 +125,19 @@ impl Scene {
                 };
             }
             self.remember(pair, apart_mm);
-            let [first, second] = members.map(|m| self.reach_of(m, &longest));
+            let [first, second] = members.map(|m| self.reach_of(m, &still));
             room.of_near.add(apart_mm - watch_mm, &between(&first, &second));
         }
         self.pairs = pairs;
-        room.of_near.take(&sweep.way());
-        room.of_near.is_free() && self.work < self.most_work
+        room.of_near.holds(sweep.to) && self.work < self.most_work
     }
 
     pub(super) fn reaches(&self, ways: &Command) -> Vec<Command> {
         (0..self.members.len()).map(|member| self.reach_of(member, ways)).collect()
     }
 
-    /// How far a member moves at most per mm and rad of each axis that carries it, while axes go no farther than these ways.
+    /// How far a member moves at most per mm and rad of each axis that carries it, from wherever it comes to while the axes go no farther
+    /// than these ways: axes further out may bring it farther from a rotary one.
     fn reach_of(&self, member: usize, ways: &Command) -> Command {
         let (level, side) = self.level(member);
         let own = &self.members[member];
@@ -181,6 +160,13 @@ impl Scene {
         }
         reach
     }
+
+    /// How far a point of the bed frame is from a rotary axis where it is now.
+    fn reach_mm(&self, body: usize, axis: usize, point: &Vec3) -> f64 {
+        let node = &self.nodes_now[body];
+        let direction = node.linear() * self.axes[axis].direction;
+        (point - node.shift_mm()).cross(&direction).norm() / direction.norm()
+    }
 }
 
 /// How far two bodies move as seen from each other, per mm and rad of each axis: one that carries both moves neither.
@@ -199,7 +185,6 @@ mod tests {
     use crate::collide::mesh::Mesh;
     use crate::collide::scene::{BodyModel, Contact, Role, ToolShape};
     use crate::collide::shape::cuboid;
-    use trueaxis_geometry::Vec3;
     use trueaxis_machine::Machine;
     use trueaxis_machine::errors::ErrorValues;
     use trueaxis_machine::file::NoTables;
@@ -255,11 +240,11 @@ mod tests {
             let sweep =
                 Sweep { from: &at, to: &to, clearance_mm: 2.0, resolution_mm: 0.5, allowed };
             let mut found = Vec::new();
-            let is_taken = room.as_mut().is_some_and(|room| room.take(&at, &to, allowed));
+            let is_in = room.as_ref().is_some_and(|room| room.holds(&to, allowed));
             let renewal = |room: &mut Room| scene.renew(room, &poses_at, &sweep);
-            if is_taken || room.as_mut().is_some_and(renewal) {
+            if is_in || room.as_mut().is_some_and(renewal) {
                 free += 1;
-                renewed += u32::from(!is_taken);
+                renewed += u32::from(!is_in);
                 new().sweep(&poses_at, &sweep, &mut found);
                 assert!(found.is_empty(), "{step}: {found:?}");
             } else {
@@ -280,10 +265,7 @@ mod tests {
                     assert!((one.clearance_mm - other.clearance_mm).abs() <= 0.5, "{step}");
                 }
                 room = found.is_empty().then(|| scene.room(&sweep));
-                room = room.filter(|room| room.clone().take(&at, &to, allowed));
-                if let Some(room) = &mut room {
-                    room.take(&at, &to, allowed);
-                }
+                room = room.filter(|room| room.holds(&to, allowed));
             }
             at = to;
         }
