@@ -1,5 +1,7 @@
 //! Tables of numbers whose headings carry the units.
 
+mod stretch;
+
 use crate::limits::{LONGEST_HEADING, MOST_BAD_ROWS, MOST_COLUMNS, MOST_ROWS, beginning};
 use crate::plausible::largest_under;
 use crate::{Diagnostics, Place, Unit};
@@ -41,10 +43,9 @@ impl CsvTable {
     pub fn parse(file: &str, text: &str, problems: &mut Diagnostics) -> Self {
         let mut table = Self { file: file.to_owned(), ..Self::default() };
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let rows = text.lines().enumerate().map(|(i, line)| (i + 1, line));
-        let is_comment = |l: &str| l.trim_start().is_empty() || l.trim_start().starts_with('#');
+        let mut text = Numbered { text, line: 0 };
         let mut bad = 0;
-        for (number, line) in rows.filter(|(_, l)| !is_comment(l)) {
+        while let Some((number, line)) = text.next_row() {
             if table.columns.is_empty() {
                 let place = Place { file: file.to_owned(), line: number, column: 1 };
                 if has_headings_excess(line, &place, problems) {
@@ -58,6 +59,8 @@ impl CsvTable {
                     problems.error("bad-separator", place, message, hint);
                     return table;
                 }
+                // What can be read without a word is; the first problem is met again row by row.
+                stretch::read(&mut table, &mut text);
             } else {
                 bad += usize::from(table.read_row(number, line, problems).is_none());
                 if table.rows() > MOST_ROWS || bad == MOST_BAD_ROWS {
@@ -199,6 +202,28 @@ impl CsvTable {
             column.values.push(value);
         }
         Some(())
+    }
+}
+
+/// The part of a text that is still to be read, and how many of its lines were.
+#[derive(Clone, Copy)]
+struct Numbered<'t> {
+    text: &'t str,
+    line: usize,
+}
+
+impl<'t> Numbered<'t> {
+    /// The next line that is neither empty nor a comment, with its number.
+    fn next_row(&mut self) -> Option<(usize, &'t str)> {
+        loop {
+            let line = self.text.lines().next()?;
+            let end = self.text.find('\n').map_or(self.text.len(), |at| at + 1);
+            (self.text, self.line) = (&self.text[end..], self.line + 1);
+            let words = line.trim_start();
+            if !words.is_empty() && !words.starts_with('#') {
+                return Some((self.line, line));
+            }
+        }
     }
 }
 

@@ -17,6 +17,7 @@
 
 mod columns;
 mod compensated;
+pub(crate) mod drawn;
 mod groups;
 mod inverse;
 mod kernel;

@@ -8,6 +8,11 @@
 //!
 //! No order of smallness is neglected: the steps of the chain are affine in what comes to them.
 
+mod drawn;
+
+pub use crate::batch::drawn::{DRAWN, Factors};
+pub use drawn::DrawnCommand;
+
 use crate::axis::Command;
 use crate::chain::{Link, Machine, Step};
 use crate::deviation::{Deviation, inverse_turn_minus_identity, renormalised};

@@ -4,7 +4,9 @@ mod library;
 
 use library::{Random, SHIPPED, machine, machine_of, warm};
 use trueaxis_geometry::Vec3;
+use trueaxis_machine::batch::{InstructionSet, LARGEST_TURN_RAD};
 use trueaxis_machine::errors::{ErrorIndex, ErrorKind, ErrorValues, Rotation};
+use trueaxis_machine::variations::DrawnCommand;
 use trueaxis_machine::{ErrorModel, Machine, Squareness};
 
 /// Errors of all bodies, as large as those of no machine.
@@ -119,4 +121,48 @@ fn law_a_fixed_command_is_the_whole_chain() {
             }
         }
     }
+}
+
+#[test]
+fn law_drawn_machines_are_each_the_whole_chain() {
+    let mut random = Random(12);
+    let (mut moved, mut turned) = (0, 0);
+    let hot = warm(
+        &machine_of("gantry-001", |text| {
+            text.replace("\"13.2 um/(m K)\"", "\"13.2 ± 1 um/(m K)\"")
+        }),
+        "scale_x=25 scale_y=24 workpiece=28",
+    );
+    for (name, machine) in under_each_model().chain([("hot".to_owned(), hot)]) {
+        let quantities = machine.uncertain_quantities();
+        for size in [1.0, 1.0, 1e5] {
+            let (command, errors) = (random.command(&machine), errors(&machine, &mut random));
+            let known = machine.uncertainties_at(&command, &quantities);
+            let drawn = DrawnCommand::of(&machine.fixed_command(&command), &errors, &known);
+            // The last quantity may have no factors: it keeps its value. Large turns in some lanes only.
+            let row =
+                |_| std::array::from_fn(|k| (random.unit() - 0.5) * if k < 3 { size } else { 4.0 });
+            let factors: Vec<[f64; 8]> = (1..quantities.len()).map(row).collect();
+            for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
+                let mut found = [[0.0; 8]; 6];
+                drawn.deviations_by(set, &factors, &mut found);
+                for k in 0..8 {
+                    let own: Vec<f64> = factors.iter().map(|row| row[k]).collect();
+                    let other = known.displaced(&errors, &own);
+                    let due = machine.deviation(&command, &other);
+                    let [x, y, z, i, j, l] = found.each_ref().map(|row| row[k]);
+                    let off = (Vec3::new(x, y, z) - due.tip_mm).norm();
+                    assert!(
+                        off < 1e-11 + 1e-14 * due.tip_mm.norm(),
+                        "{name} {set:?} {k}: {off} mm"
+                    );
+                    let off = (Vec3::new(i, j, l) - due.axis).norm();
+                    assert!(off < 1e-15 + 1e-14 * due.axis.norm(), "{name} {set:?} {k}: {off} rad");
+                    moved += usize::from(due.tip_mm.norm() > 1e-6);
+                    turned += usize::from(due.axis.norm() > LARGEST_TURN_RAD);
+                }
+            }
+        }
+    }
+    assert!(moved > 500 && turned > 20, "{moved} {turned}");
 }

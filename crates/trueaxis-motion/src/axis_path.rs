@@ -96,9 +96,12 @@ pub struct AxisPath<'m> {
     /// From basic coordinates to the workpiece frame of the machine file.
     turn: Mat3,
     shift: Vec3,
+    /// The inverse of `turn`.
+    turn_back: Mat3,
     /// Without tools in the set-up the control counts with the tool of the machine file.
     lengths_known: bool,
-    control: Option<TipControl>,
+    /// In a box: a move of the tip takes it out and puts it back.
+    control: Option<Box<TipControl>>,
     frame: Frame,
     tool: Vec3,
     tcp: bool,
@@ -142,8 +145,9 @@ impl<'m> AxisPath<'m> {
             axis_of: axes_of_programs(machine),
             turn,
             shift,
+            turn_back: inverse3(&turn),
             lengths_known: !setup.tools.is_empty(),
-            control: TipControl::of(machine),
+            control: TipControl::of(machine).map(Box::new),
             frame: Frame::IDENTITY,
             tool: Vec3::zeros(),
             tcp: false,
@@ -257,7 +261,8 @@ impl<'m> AxisPath<'m> {
     /// The control counts with the tool length that the program has switched on.
     fn fit_tip(&mut self) {
         if self.lengths_known {
-            self.control = TipControl::of(&self.machine.clone().with_tip(-self.tool));
+            let tipped = self.machine.clone().with_tip(-self.tool);
+            self.control = TipControl::of(&tipped).map(Box::new);
         }
     }
 
@@ -268,13 +273,17 @@ impl<'m> AxisPath<'m> {
     }
 
     fn find_basic(&mut self) {
-        self.basic = match &self.control {
+        self.basic = self.basic_of(&self.command);
+    }
+
+    /// The basic coordinates of axis positions.
+    fn basic_of(&self, command: &Command) -> Vec3 {
+        match &self.control {
             Some(control) if self.follows_tip() => {
-                let tip = control.tip_and_axis(&self.command).0;
-                inverse3(&self.turn) * (tip - self.shift)
+                self.turn_back * (control.tip_and_axis(command).0 - self.shift)
             }
-            _ => self.linear_axes(&self.command) - self.tool - self.carried(&self.command),
-        };
+            _ => self.linear_axes(command) - self.tool - self.carried(command),
+        }
     }
 
     fn linear_axes(&self, command: &Command) -> Vec3 {

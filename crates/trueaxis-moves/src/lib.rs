@@ -190,6 +190,12 @@ impl Frame {
     /// inverse.
     pub fn inverse_place(&self, p: &Position) -> Option<Position> {
         let m = &self.linear;
+        if *m == Self::IDENTITY.linear {
+            let mut out = p.minus(&self.shift);
+            // −0 is 0.
+            out.0[..3].iter_mut().for_each(|x| *x += 0.0);
+            return Some(out);
+        }
         let minor = |a: usize, b: usize| {
             let (r, s) = ((a + 1) % 3, (a + 2) % 3);
             let (c, d) = ((b + 1) % 3, (b + 2) % 3);

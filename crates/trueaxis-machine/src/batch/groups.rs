@@ -45,7 +45,10 @@ pub(super) fn place_by<const W: usize, const N: usize, L: Lanes<W>>(
 }
 
 #[inline(always)]
-fn lanes<const W: usize, const N: usize, L: Lanes<W>>(column: &[f64; N], at: usize) -> L {
+pub(super) fn lanes<const W: usize, const N: usize, L: Lanes<W>>(
+    column: &[f64; N],
+    at: usize,
+) -> L {
     match column[at..].first_chunk() {
         Some(lanes) => L::load(lanes),
         // Not reached: N is a multiple of W.
@@ -54,7 +57,11 @@ fn lanes<const W: usize, const N: usize, L: Lanes<W>>(column: &[f64; N], at: usi
 }
 
 #[inline(always)]
-fn put<const W: usize, const N: usize, L: Lanes<W>>(column: &mut [f64; N], at: usize, value: L) {
+pub(super) fn put<const W: usize, const N: usize, L: Lanes<W>>(
+    column: &mut [f64; N],
+    at: usize,
+    value: L,
+) {
     if let Some(to) = column[at..].first_chunk_mut() {
         value.store(to);
     }

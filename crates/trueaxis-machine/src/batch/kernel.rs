@@ -180,7 +180,11 @@ pub(super) fn lanes_at<const W: usize, L: Lanes<W>>(column: &[f64], at: usize) -
 
 /// `v + m·u`
 #[inline(always)]
-fn plus_product<const W: usize, L: Lanes<W>>(v: [L; 3], m: &[[L; 3]; 3], u: [L; 3]) -> [L; 3] {
+pub(super) fn plus_product<const W: usize, L: Lanes<W>>(
+    v: [L; 3],
+    m: &[[L; 3]; 3],
+    u: [L; 3],
+) -> [L; 3] {
     [plus_dot(v[0], &m[0], &u), plus_dot(v[1], &m[1], &u), plus_dot(v[2], &m[2], &u)]
 }
 
@@ -227,7 +231,7 @@ fn move_by<const W: usize, L: Lanes<W>>(
 
 /// `Rz(c)·Ry(b)·Rx(a) − I`, as [`crate::errors::SixErrors::rotation_minus_identity`], for small angles.
 #[inline(always)]
-fn error_turn<const W: usize, L: Lanes<W>>(angles: [L; 3]) -> [[L; 3]; 3] {
+pub(super) fn error_turn<const W: usize, L: Lanes<W>>(angles: [L; 3]) -> [[L; 3]; 3] {
     let (sa, va) = small_sine_versine(angles[0]);
     let (sb, vb) = small_sine_versine(angles[1]);
     let (sc, vc) = small_sine_versine(angles[2]);

@@ -5,6 +5,7 @@
 
 use super::columns::DeviationColumns;
 use super::compensated::{CommandColumns, CompensationError, CompensationJob, Effort, newton};
+use super::drawn::{self, Drawn, Factors};
 use super::lanes::PoseLanes;
 use super::pieces::Row;
 use super::{BatchError, InstructionSet, Job, groups, kernel};
@@ -168,6 +169,34 @@ fn place_with_avx512<const N: usize>(
     commands: &mut [[f64; N]; MAX_AXES],
 ) {
     groups::place_by::<8, N, EightPoses>(form, tips, commands);
+}
+
+/// Deviations of drawn machines and which of them are undecided; for a processor with AVX2, else all are.
+pub(super) fn drawn_avx2(command: &Drawn, factors: &Factors, out: &mut [[f64; 8]; 6]) -> u32 {
+    if !has_avx2() {
+        return u32::MAX;
+    }
+    // SAFETY: the processor has AVX2 and FMA; asked three lines above.
+    unsafe { drawn_with_avx2(command, factors, out) }
+}
+
+/// The same for a processor with AVX-512.
+pub(super) fn drawn_avx512(command: &Drawn, factors: &Factors, out: &mut [[f64; 8]; 6]) -> u32 {
+    if !has_avx512() {
+        return u32::MAX;
+    }
+    // SAFETY: the processor has AVX2, FMA and AVX-512F; asked three lines above.
+    unsafe { drawn_with_avx512(command, factors, out) }
+}
+
+#[target_feature(enable = "avx2,fma")]
+fn drawn_with_avx2(command: &Drawn, factors: &Factors, out: &mut [[f64; 8]; 6]) -> u32 {
+    drawn::by::<4, FourPoses>(command, factors, out)
+}
+
+#[target_feature(enable = "avx2,fma,avx512f")]
+fn drawn_with_avx512(command: &Drawn, factors: &Factors, out: &mut [[f64; 8]; 6]) -> u32 {
+    drawn::by::<8, EightPoses>(command, factors, out)
 }
 
 /// Four poses; lives only inside the functions with AVX2.

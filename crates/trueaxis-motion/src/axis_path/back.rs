@@ -1,12 +1,11 @@
 //! From axis positions back to the words that lead to them, in the present state of the program.
 
 use super::AxisPath;
-use trueaxis_geometry::frame::inverse3;
 use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::axis::{Command, Travel};
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::KnownPosition;
-use trueaxis_nc::moves::{Axis, AxisSet, Coordinates, OrientationPath, Position};
+use trueaxis_nc::moves::{Axis, AxisSet, Coordinates, Frame, OrientationPath, Position};
 
 /// The coordinates that the control interpolates linearly in a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,7 +40,7 @@ impl AxisPath<'_> {
 
     /// The nominal machine with the tool length of the control.
     pub fn control(&self) -> Option<&TipControl> {
-        self.control.as_ref()
+        self.control.as_deref()
     }
 
     /// The machine's axis of a word.
@@ -118,12 +117,10 @@ impl AxisPath<'_> {
         if from == Coordinates::Machine {
             return words;
         }
-        let basic = match &self.control {
-            Some(control) if self.follows_tip() => {
-                let tip = control.tip_and_axis(command).0;
-                inverse3(&self.turn) * (tip - self.shift)
-            }
-            _ => self.linear_axes(command) - self.tool - self.carried(command),
+        // Where the axes are the place is known, and is the programmed one to the last digit.
+        let basic = match self.follows_tip() && *command == self.command {
+            true => self.basic,
+            false => self.basic_of(command),
         };
         let mut place = words;
         place.0[..3].copy_from_slice(basic.as_slice());
@@ -133,8 +130,13 @@ impl AxisPath<'_> {
     /// The direction in the program frame along which the tool points at axis positions.
     pub fn direction_of(&self, command: &Command) -> Option<[f64; 3]> {
         let (_, axis) = self.control.as_ref()?.tip_and_axis(command);
-        let linear = Mat3::from_fn(|i, j| self.frame.linear[i][j]);
-        let direction = (self.turn * linear).try_inverse()? * axis;
+        let direction = match self.frame.linear == Frame::IDENTITY.linear {
+            true => self.turn_back * axis,
+            false => {
+                let linear = Mat3::from_fn(|i, j| self.frame.linear[i][j]);
+                (self.turn * linear).try_inverse()? * axis
+            }
+        };
         direction.try_normalize(0.0).map(Vec3::into)
     }
 }

@@ -7,7 +7,7 @@ use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Direction, Point};
 use trueaxis_machine::axis::{Approach, Command, MAX_AXES};
 use trueaxis_machine::errors::{ErrorValues, Uncertainties};
-use trueaxis_machine::variations::FixedCommand;
+use trueaxis_machine::variations::{DRAWN, DrawnCommand, Factors, FixedCommand};
 use trueaxis_machine::{Machine, Target};
 use trueaxis_part::testpiece::{Datum, TestPiece, ToolPosition};
 
@@ -230,24 +230,79 @@ impl<'a> Cutting<'a> {
     /// s is the distance of the contact from the tip along the tool axis, q₀ the setting command:
     /// the zero was set with the same wrong machine, so its error there is subtracted once.
     pub fn cut(&self, change: &Change<'_>, deviations_mm: &mut Vec<Vec3>) -> Datum {
-        let at = |stop: &Stop| {
-            let mut off = stop.there.deviation(&change(&stop.errors, &stop.u));
-            off.tip_mm += stop.off[0];
-            off.axis += stop.off[1];
-            off
+        let at = |_: usize, stop: &Stop| {
+            let off = stop.there.deviation(&change(&stop.errors, &stop.u));
+            [off.tip_mm, off.axis]
         };
-        let zero = self.setting.as_ref().map_or(Vec3::zeros(), |s| at(s).tip_mm);
+        self.cut_where(&at, deviations_mm)
+    }
+
+    /// The same where each stop, by its number in [`Cutting::stops`], has this deviation of tip, mm, and axis.
+    fn cut_where(
+        &self,
+        deviation: &dyn Fn(usize, &Stop) -> [Vec3; 2],
+        deviations_mm: &mut Vec<Vec3>,
+    ) -> Datum {
+        let at = |k: usize, stop: &Stop| {
+            let [tip, axis] = deviation(k, stop);
+            [tip + stop.off[0], axis + stop.off[1]]
+        };
+        let first = self.positions.len();
+        let zero = self.setting.as_ref().map_or(Vec3::zeros(), |s| at(first, s)[0]);
         deviations_mm.clear();
-        for (position, stop) in self.positions.iter().zip(&self.stops) {
-            let deviation = at(stop);
+        for (k, (position, stop)) in self.positions.iter().zip(&self.stops).enumerate() {
+            let [tip, axis] = at(k, stop);
             for contact in &position.contacts {
-                let along = deviation.axis * contact.along_axis_mm;
-                deviations_mm.push(deviation.tip_mm + along - zero);
+                deviations_mm.push(tip + axis * contact.along_axis_mm - zero);
             }
         }
         let Some((ends, depth_mm)) = &self.hole else { return Datum::IDEAL };
-        let [top, bottom] = ends.each_ref().map(|stop| at(stop).tip_mm - zero);
+        let first = first + usize::from(self.setting.is_some());
+        let [top, bottom] = [0, 1].map(|k| at(first + k, &ends[k])[0] - zero);
         bored_datum(top, bottom, *depth_mm)
+    }
+
+    /// All stops: those of the path, where the zero was touched, and the ends of the hole.
+    fn stops(&self) -> impl Iterator<Item = &Stop> {
+        let ends = self.hole.iter().flat_map(|(ends, _)| ends);
+        self.stops.iter().chain(&self.setting).chain(ends)
+    }
+
+    /// The same cut, ready for many machines whose errors are drawn.
+    pub(super) fn drawn(&self) -> DrawnCutting<'_> {
+        let ready = |stop: &Stop| DrawnCommand::of(&stop.there, &stop.errors, &stop.u);
+        DrawnCutting { cutting: self, commands: self.stops().map(ready).collect() }
+    }
+}
+
+/// A cut on eight machines at a time, whose errors are drawn within their uncertainties.
+pub(super) struct DrawnCutting<'a> {
+    cutting: &'a Cutting<'a>,
+    /// In the order of [`Cutting::stops`].
+    commands: Vec<DrawnCommand>,
+}
+
+impl DrawnCutting<'_> {
+    /// Tip, mm, and axis at each stop, in rows of three, a column for each machine.
+    pub fn deviations(&self, factors: &Factors, found: &mut Vec<[[f64; DRAWN]; 6]>) {
+        found.resize(self.commands.len(), [[0.0; DRAWN]; 6]);
+        for (command, found) in self.commands.iter().zip(found) {
+            command.deviations(factors, found);
+        }
+    }
+
+    /// The part that one of these machines cuts; as [`Cutting::cut`].
+    pub fn cut(
+        &self,
+        found: &[[[f64; DRAWN]; 6]],
+        machine: usize,
+        deviations_mm: &mut Vec<Vec3>,
+    ) -> Datum {
+        let at = |k: usize, _: &Stop| {
+            let [x, y, z, i, j, k] = found[k].each_ref().map(|row| row[machine]);
+            [Vec3::new(x, y, z), Vec3::new(i, j, k)]
+        };
+        self.cutting.cut_where(&at, deviations_mm)
     }
 }
 

@@ -16,7 +16,7 @@ pub struct Judge<'a> {
 /// Memory that one thread uses again for every cut.
 #[derive(Default)]
 pub struct Bench {
-    deviations: Vec<Vec3>,
+    pub(super) deviations: Vec<Vec3>,
     scratch: Scratch,
 }
 
@@ -36,9 +36,25 @@ impl Judge<'_> {
         bench: &mut Bench,
         out: &mut [f64],
     ) -> Result<(), Error> {
-        let datum = self.cut(change, &mut bench.deviations);
+        let datum = self.cutting.cut(change, &mut bench.deviations);
+        self.judged(datum, bench, out)
+    }
+
+    /// The indices of a part with the deviations on the bench.
+    pub(super) fn judged(
+        &self,
+        datum: Datum,
+        bench: &mut Bench,
+        out: &mut [f64],
+    ) -> Result<(), Error> {
+        let datum = self.datum(datum, &bench.deviations);
         let surface = CutSurface { deviation_mm: &bench.deviations, datum };
         self.piece.evaluate(&surface, &mut bench.scratch, out).map_err(Error::Evaluation)
+    }
+
+    /// The datum that the machine bored, or the frame of the best fit.
+    fn datum(&self, bored: Datum, deviation_mm: &[Vec3]) -> Datum {
+        if self.cutting.in_best_fit() { self.piece.best_fit(deviation_mm) } else { bored }
     }
 
     /// Every section in full, for the report.
@@ -56,7 +72,7 @@ impl Judge<'_> {
     /// The deviations at every contact point, mm, and the datum against which they are judged.
     pub fn cut(&self, change: &Change<'_>, deviation_mm: &mut Vec<Vec3>) -> Datum {
         let datum = self.cutting.cut(change, deviation_mm);
-        if self.cutting.in_best_fit() { self.piece.best_fit(deviation_mm) } else { datum }
+        self.datum(datum, deviation_mm)
     }
 
     /// The same with memory of its own: for analyses that ask a few hundred times.

@@ -8,6 +8,7 @@ use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use trueaxis_machine::Machine;
+use trueaxis_machine::variations::DRAWN;
 
 /// Samples that one thread draws in a row; fixed, so that the sums below do not depend on the
 /// number of threads.
@@ -65,10 +66,36 @@ pub fn monte_carlo(
         return Err(Error::TooFewSamples(sampling.samples));
     }
     let counts = [machine.uncertain_quantities().len(), judge.index_count()];
-    let indices = |factors: &[f64], bench: &mut Bench, indices: &mut [f64]| {
-        judge.indices(&|values, u| u.displaced(values, factors), bench, indices)
+    let drawn = judge.cutting.drawn();
+    let prepare = |factors: &[Vec<f64>], work: &mut Group| {
+        work.fill(factors);
+        drawn.deviations(&work.factors, &mut work.found);
     };
-    spreads(sampling, counts, indices, progress)
+    let indices = |k: usize, _: &[f64], work: &mut Group, indices: &mut [f64]| {
+        let datum = drawn.cut(&work.found, k, &mut work.bench.deviations);
+        judge.judged(datum, &mut work.bench, indices)
+    };
+    spreads_of_groups(sampling, counts, (prepare, indices), progress)
+}
+
+/// What a thread needs for eight machines at a time.
+#[derive(Default)]
+struct Group {
+    /// A row for each quantity, a column for each machine.
+    factors: Vec<[f64; DRAWN]>,
+    found: Vec<[[f64; DRAWN]; 6]>,
+    bench: Bench,
+}
+
+impl Group {
+    /// The factors of up to eight machines; the others are as stated.
+    fn fill(&mut self, machines: &[Vec<f64>]) {
+        let of = |quantity: usize| {
+            std::array::from_fn(|k| machines.get(k).map_or(0.0, |factors| factors[quantity]))
+        };
+        self.factors.clear();
+        self.factors.extend((0..machines[0].len()).map(of));
+    }
 }
 
 /// The spread of each of many values of samples, by the number of factors of a sample and of its values. What a sample needs to
@@ -77,6 +104,27 @@ pub(super) fn spreads<W: Default, E: Send>(
     sampling: Sampling,
     [factors, values]: [usize; 2],
     evaluate: impl Fn(&[f64], &mut W, &mut [f64]) -> Result<(), E> + Sync,
+    progress: &(dyn Fn(usize) + Sync),
+) -> Result<Vec<Spread>, E> {
+    let evaluate =
+        |_: usize, factors: &[f64], work: &mut W, found: &mut [f64]| evaluate(factors, work, found);
+    spreads_of_groups(
+        sampling,
+        [factors, values],
+        (|_: &[Vec<f64>], _: &mut W| (), evaluate),
+        progress,
+    )
+}
+
+/// The same where what a sample needs is prepared for a group of up to eight by their factors; then each is evaluated by its number in
+/// the group.
+fn spreads_of_groups<W: Default, E: Send>(
+    sampling: Sampling,
+    [factors, values]: [usize; 2],
+    (prepare, evaluate): (
+        impl Fn(&[Vec<f64>], &mut W) + Sync,
+        impl Fn(usize, &[f64], &mut W, &mut [f64]) -> Result<(), E> + Sync,
+    ),
     progress: &(dyn Fn(usize) + Sync),
 ) -> Result<Vec<Spread>, E> {
     let done = AtomicUsize::new(0);
@@ -89,9 +137,14 @@ pub(super) fn spreads<W: Default, E: Send>(
             let range = c * CHUNK..((c + 1) * CHUNK).min(sampling.samples);
             let length = range.len();
             let mut chunk = Chunk::of(values);
-            for sample in range {
-                let factors = draw(factors, sampling.seed, sample);
-                chunk.add(sample < KEPT, |found| evaluate(&factors, work, found))?;
+            for first in range.clone().step_by(DRAWN) {
+                let group = first..(first + DRAWN).min(range.end);
+                let drawn = |sample| draw(factors, sampling.seed, sample);
+                let machines: Vec<Vec<f64>> = group.clone().map(drawn).collect();
+                prepare(&machines, work);
+                for (k, (sample, factors)) in group.zip(&machines).enumerate() {
+                    chunk.add(sample < KEPT, |found| evaluate(k, factors, work, found))?;
+                }
             }
             progress(done.fetch_add(length, Ordering::Relaxed) + length);
             Ok(chunk)

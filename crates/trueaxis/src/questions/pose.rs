@@ -103,7 +103,7 @@ impl Question for AskPose {
         _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<PoseAnswer> {
-        let table = match at {
+        let mut table = match at {
             Read::Table(table) => PoseTable::new(&machine, approach, table),
             Read::One(command) => {
                 let place = argument("--at");
@@ -114,7 +114,7 @@ impl Question for AskPose {
                 return Some(PoseAnswer::One(Box::new(found)));
             }
         };
-        if !table.is_sound() {
+        if !table.examine(is_absurd) {
             // Every row is tried, so that all rows with problems are reported at once.
             for row in 0..table.table().rows() {
                 let place = table.table().row_place(row);
@@ -236,7 +236,7 @@ impl Answer for PoseAnswer {
     fn examined(&self, problems: &Diagnostics) -> Value {
         match self {
             Self::One(_) => self.document(problems),
-            Self::Rows(table) => of_rows(Value::Object(table.first_row(is_absurd))),
+            Self::Rows(table) => of_rows(Value::Object(table.conspicuous())),
         }
     }
 }

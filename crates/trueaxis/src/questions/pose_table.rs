@@ -14,7 +14,7 @@ use trueaxis_report::numbers::push_exact;
 /// Rows of a block.
 const BLOCK: usize = 4096;
 /// Blocks that are made ready at once, by all threads.
-const AHEAD: usize = 16;
+const AHEAD: usize = 8;
 
 /// Positions of a table, and the machine that takes them.
 #[derive(Debug)]
@@ -24,13 +24,16 @@ pub struct PoseTable {
     table: CsvTable,
     /// The axis of each column.
     axes: Vec<usize>,
+    /// A row that is not believed, under its number.
+    conspicuous: Map<String, Value>,
 }
 
 impl PoseTable {
     /// Of a table whose columns are axes of the machine.
     pub(super) fn new(machine: &Machine, approach: Approach, table: CsvTable) -> Self {
         let axes = table.columns.iter().filter_map(|c| axis_index(machine, &c.name)).collect();
-        Self { machine: CompiledMachine::new(machine), approach, table, axes }
+        let machine = CompiledMachine::new(machine);
+        Self { machine, approach, table, axes, conspicuous: Map::new() }
     }
 
     /// The table as it was read.
@@ -52,10 +55,30 @@ impl PoseTable {
         command
     }
 
-    /// Whether the machine has a pose in every row.
-    pub(super) fn is_sound(&self) -> bool {
+    /// Whether the machine has a pose in every row; keeps the first row for which `is` holds of a number and its heading.
+    pub(super) fn examine(&mut self, is: impl Fn(&str, f64) -> bool + Sync) -> bool {
         use rayon::prelude::*;
-        self.blocks().into_par_iter().all(|rows| self.block(rows).is_ok())
+        let names = self.names();
+        let examined = |rows: [usize; 2]| {
+            let found = self.block(rows).ok()?;
+            let (mut row, mut first) = (rows[0], None);
+            self.each_row(&found, row, |numbers| {
+                if first.is_none() && names.iter().zip(numbers).any(|(n, x)| is(n, *x)) {
+                    let entries = names.iter().cloned().zip(numbers.iter().map(|x| json!(x)));
+                    first = Some((row.to_string(), Value::Object(entries.collect())));
+                }
+                row += 1;
+            });
+            Some(first)
+        };
+        let all: Option<Vec<_>> = self.blocks().into_par_iter().map(examined).collect();
+        self.conspicuous = all.iter().flatten().flatten().next().cloned().into_iter().collect();
+        all.is_some()
+    }
+
+    /// The row that was kept, as an object under its number; empty if none was.
+    pub(super) fn conspicuous(&self) -> Map<String, Value> {
+        self.conspicuous.clone()
     }
 
     fn blocks(&self) -> Vec<[usize; 2]> {
@@ -88,12 +111,11 @@ impl PoseTable {
         given.chain(POSE_COLUMNS.map(Into::into)).collect()
     }
 
-    /// The numbers of each row of a block, in the order of the headings.
-    fn each_row(&self, rows: [usize; 2], mut with: impl FnMut(&[f64])) {
-        let Ok(found) = self.block(rows) else { return };
+    /// The numbers of each row of a block that begins at a row, in the order of the headings.
+    fn each_row(&self, found: &DeviationTable, from: usize, mut with: impl FnMut(&[f64])) {
         let mut numbers = Vec::with_capacity(self.axes.len() + POSE_COLUMNS.len());
-        for (k, row) in (rows[0]..rows[1]).enumerate() {
-            let d = found.at(k);
+        for k in 0..found.len() {
+            let (d, row) = (found.at(k), from + k);
             let (tip, axis) = (d.nominal_tip.vector(), d.nominal_axis.vector());
             numbers.clear();
             numbers.extend(self.table.columns.iter().map(|c| c.values[row] + 0.0));
@@ -104,16 +126,28 @@ impl PoseTable {
         }
     }
 
-    /// Writes all rows by their `text`, block after block in order.
+    /// Writes all rows by their `text`, block after block in order; while some are written, the next are made ready.
     fn write_blocks(
         &self,
         out: &mut dyn Write,
-        text: impl Fn([usize; 2]) -> Vec<u8> + Sync,
+        text: impl Fn(&DeviationTable, usize) -> Vec<u8> + Sync,
     ) -> io::Result<()> {
         use rayon::prelude::*;
-        for some in self.blocks().chunks(AHEAD) {
-            let texts: Vec<Vec<u8>> = some.par_iter().map(|rows| text(*rows)).collect();
-            texts.iter().try_for_each(|text| out.write_all(text))?;
+        let blocks = self.blocks();
+        let ready = |some: &[[usize; 2]]| -> Vec<Vec<u8>> {
+            // Every row was computed before.
+            let computed = |rows: &[usize; 2]| Some(text(&self.block(*rows).ok()?, rows[0]));
+            some.par_iter().filter_map(computed).collect()
+        };
+        let mut texts: Vec<Vec<u8>> = Vec::new();
+        // After the last some only what is ready is written.
+        for some in blocks.chunks(AHEAD).chain([&[][..]]) {
+            let mut next = Vec::new();
+            rayon::in_place_scope(|scope| {
+                scope.spawn(|_| next = ready(some));
+                texts.iter().try_for_each(|text| out.write_all(text))
+            })?;
+            texts = next;
         }
         Ok(())
     }
@@ -121,9 +155,9 @@ impl PoseTable {
     /// As a CSV table.
     pub(super) fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "{}", self.names().join(","))?;
-        self.write_blocks(out, |rows| {
+        self.write_blocks(out, |found, from| {
             let mut text = String::new();
-            self.each_row(rows, |numbers| {
+            self.each_row(found, from, |numbers| {
                 for (i, number) in numbers.iter().enumerate() {
                     if i > 0 {
                         text.push(',');
@@ -141,11 +175,11 @@ impl PoseTable {
         let names = self.names();
         let keys: Vec<String> =
             names.iter().map(|n| format!("\n      {}: ", Value::from(n.as_str()))).collect();
-        self.write_blocks(out, |rows| {
+        self.write_blocks(out, |found, from| {
             let mut text = Vec::new();
-            let is_first = rows[0] == 0;
+            let is_first = from == 0;
             let mut count = 0;
-            self.each_row(rows, |numbers| {
+            self.each_row(found, from, |numbers| {
                 text.extend_from_slice(if is_first && count == 0 {
                     b"\n    {"
                 } else {
@@ -165,24 +199,5 @@ impl PoseTable {
             text
         })?;
         out.write_all(b"\n  ")
-    }
-
-    /// The first row for which `is` holds of its numbers, as an object under the number of the row.
-    pub(super) fn first_row(&self, is: impl Fn(&str, f64) -> bool + Sync) -> Map<String, Value> {
-        use rayon::prelude::*;
-        let names = self.names();
-        let first = |rows: [usize; 2]| {
-            let (mut row, mut found) = (rows[0], None);
-            self.each_row(rows, |numbers| {
-                if found.is_none() && names.iter().zip(numbers).any(|(n, x)| is(n, *x)) {
-                    let entries = names.iter().cloned().zip(numbers.iter().map(|x| json!(x)));
-                    found = Some((row.to_string(), Value::Object(entries.collect())));
-                }
-                row += 1;
-            });
-            found
-        };
-        let found = self.blocks().into_par_iter().find_map_first(first);
-        found.into_iter().collect()
     }
 }
