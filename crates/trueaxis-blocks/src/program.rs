@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 use std::ops::Range;
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
-use trueaxis_input::{Diagnostics, Place};
+use trueaxis_input::{Content, Diagnostics, Place};
 
 use crate::dialect::{Control, Dialect};
 use crate::lexer::{Lexer, TokenKind};
@@ -215,7 +215,7 @@ pub struct Block {
 #[derive(Debug, Clone)]
 pub struct Program {
     file: String,
-    source: Arc<Vec<u8>>,
+    source: Content,
     dialect: &'static Dialect,
     structure: OnceLock<Structure>,
 }
@@ -249,13 +249,13 @@ pub struct Structure {
 impl Program {
     /// A program from its text, which is not parsed yet.
     pub fn new(file: &str, source: Vec<u8>, control: Control) -> Self {
+        Self::of(file, source.into(), control)
+    }
+
+    /// The same from a text that may be kept elsewhere than in the memory.
+    pub fn of(file: &str, source: Content, control: Control) -> Self {
         let dialect = Dialect::of(control);
-        Self {
-            file: file.to_owned(),
-            source: Arc::new(source),
-            dialect,
-            structure: OnceLock::new(),
-        }
+        Self { file: file.to_owned(), source, dialect, structure: OnceLock::new() }
     }
 
     /// The file as the user named it.
@@ -270,7 +270,21 @@ impl Program {
 
     /// Its text, back again.
     pub fn into_source(self) -> Vec<u8> {
-        Arc::try_unwrap(self.source).unwrap_or_else(|shared| shared.to_vec())
+        self.source.into_vec()
+    }
+
+    /// The text in parts; the one before is passed, so that a long text is looked through in little memory.
+    pub fn parts(&self) -> impl Iterator<Item = &[u8]> {
+        const AT_ONCE: usize = 8 << 20;
+        self.source.chunks(AT_ONCE).enumerate().map(|(k, part)| {
+            self.pass(k.saturating_sub(1) * AT_ONCE..k * AT_ONCE);
+            part
+        })
+    }
+
+    /// These bytes of the text were executed and may not be needed again; see [`Content::pass`].
+    pub fn pass(&self, range: Range<usize>) {
+        self.source.pass(range);
     }
 
     /// The rules of its control.

@@ -1,7 +1,7 @@
 //! Access to files. The readers of this workspace open no file themselves: the caller passes a
 //! [`Files`], which may be a disk, an upload or the memory of a test.
 
-use crate::{Diagnostics, Place};
+use crate::{Content, Diagnostics, Place};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::io;
@@ -15,6 +15,14 @@ pub trait Source: Send + Sync {
     /// # Errors
     /// Why it cannot be read.
     fn read(&self, path: &Path) -> io::Result<Vec<u8>>;
+
+    /// The content of a file that may be longer than others, such as an NC program.
+    ///
+    /// # Errors
+    /// As [`Source::read`].
+    fn read_long(&self, path: &Path) -> io::Result<Content> {
+        self.read(path).map(Content::from)
+    }
 
     /// Whether the path names a regular file that may be read.
     fn is_file(&self, path: &Path) -> bool;
@@ -60,10 +68,22 @@ impl Files {
         self.read_text(path).map_err(|error| unreadable(path, what, &error, problems)).ok()
     }
 
-    /// The bytes of a file in any encoding, such as an NC program, or `None` and the problem
-    /// `unreadable-file`; `what` as for [`Files::text`].
+    /// The bytes of a file in any encoding, or `None` and the problem `unreadable-file`; `what` as for [`Files::text`].
     pub fn bytes(&self, path: &Path, what: &str, problems: &mut Diagnostics) -> Option<Vec<u8>> {
         self.read(path).map_err(|error| unreadable(path, what, &error, problems)).ok()
+    }
+
+    /// The same of a file that may be longer than others, such as an NC program.
+    pub fn content(&self, path: &Path, what: &str, problems: &mut Diagnostics) -> Option<Content> {
+        self.read_long(path).map_err(|error| unreadable(path, what, &error, problems)).ok()
+    }
+
+    /// The content of a file that may be longer than others, such as an NC program.
+    ///
+    /// # Errors
+    /// The error of the source.
+    pub fn read_long(&self, path: &Path) -> io::Result<Content> {
+        self.0.read_long(path)
     }
 
     /// The bytes of a file in any encoding.
@@ -128,6 +148,13 @@ impl Source for WithTexts {
         match self.texts.get(path) {
             Some(text) => Ok(text.clone().into_bytes()),
             None => self.others.read(path),
+        }
+    }
+
+    fn read_long(&self, path: &Path) -> io::Result<Content> {
+        match self.texts.get(path) {
+            Some(text) => Ok(text.clone().into_bytes().into()),
+            None => self.others.read_long(path),
         }
     }
 

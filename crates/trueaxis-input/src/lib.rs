@@ -37,6 +37,7 @@
 // Numbers decide here: a cast that could change one is checked or has a reason.
 #![warn(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
 
+mod content;
 mod csv;
 mod diagnostic;
 mod files;
@@ -50,6 +51,7 @@ pub mod sheet;
 pub mod stl;
 mod vector;
 
+pub use content::{Content, Kept};
 pub use csv::{CsvColumn, CsvTable};
 pub use diagnostic::{Diagnostic, Diagnostics, Place, Severity};
 pub use files::{Files, Source};

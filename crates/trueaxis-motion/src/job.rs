@@ -43,7 +43,7 @@ impl ProgramFiles<'_> {
             None => read_program(self.files, self.program, self.control, setup, problems),
             Some(text) => {
                 let control = self.control.or(setup.control);
-                program_of(self.program, text.to_vec(), control, problems)
+                program_of(self.program, text.to_vec().into(), control, problems)
             }
         }
     }
@@ -229,8 +229,9 @@ pub struct Progress<'t> {
 impl<'t> Progress<'t> {
     /// From the first line on.
     pub fn through(program: &Program, report: impl FnMut(f64) + 't) -> Self {
-        let breaks = program.source().iter().filter(|b| **b == b'\n').count();
-        Self { lines: breaks as f64 + 1.0, line: 0, report: Box::new(report) }
+        let breaks = |part: &[u8]| part.iter().filter(|b| **b == b'\n').count();
+        let lines = program.parts().map(breaks).sum::<usize>() as f64 + 1.0;
+        Self { lines, line: 0, report: Box::new(report) }
     }
 }
 

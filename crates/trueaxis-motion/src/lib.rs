@@ -39,6 +39,7 @@ mod orientation;
 mod parquet_log;
 #[cfg(feature = "parquet")]
 mod parquet_table;
+mod pose_table;
 mod program;
 mod recording;
 pub mod report;
@@ -65,6 +66,7 @@ pub use job::{Findings, Job, ProgramFiles, Progress};
 pub use machining::{BlockUse, Machined, Machining};
 #[cfg(feature = "parquet")]
 pub use parquet_table::ParquetTable;
+pub use pose_table::PoseTable;
 pub use program::read_program;
 pub use recording::{
     AxisRange, Colour, Curves, Moment, PathPoints, QuantityRange, Recorder, Recording,

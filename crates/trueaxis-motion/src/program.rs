@@ -4,7 +4,7 @@ use super::basic::{rotary_angles, tool_turn};
 use super::setup::{CONTROLS, SetUp};
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::{Mat3, Vec3};
-use trueaxis_input::{Diagnostics, Files, Place};
+use trueaxis_input::{Content, Diagnostics, Files, Place};
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::{Branch, Position};
 use trueaxis_nc::{Control, Library, Program};
@@ -18,22 +18,21 @@ pub fn read_program(
     setup: &SetUp,
     problems: &mut Diagnostics,
 ) -> Option<Program> {
-    let bytes = files.bytes(path, "an NC program", problems)?;
+    let bytes = files.content(path, "an NC program", problems)?;
     program_of(path, bytes, control.or(setup.control), problems)
 }
 
 /// The program of a text as if it were in a file at a path.
 pub(super) fn program_of(
     path: &Path,
-    mut bytes: Vec<u8>,
+    bytes: Content,
     control: Option<Control>,
     problems: &mut Diagnostics,
 ) -> Option<Program> {
     let file = path.display().to_string();
-    if bytes.starts_with(b"\xEF\xBB\xBF") {
-        // Editors put this mark before UTF-8 text; no control reads it.
-        bytes.drain(..3);
-    }
+    // Editors put this mark before UTF-8 text; no control reads it.
+    let mark = if bytes.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
+    let bytes = bytes.without(mark);
     if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
         let message = "the program is UTF-16 text".to_owned();
         let hint = "save it as plain text (ASCII, Latin-1 or UTF-8)";
@@ -58,7 +57,7 @@ pub(super) fn program_of(
         problems.error("unknown-control", Place::whole(&file), message, &hint);
         return None;
     };
-    Some(Program::new(&file, bytes, control))
+    Some(Program::of(&file, bytes, control))
 }
 
 fn by_extension(path: &Path) -> Option<Control> {
@@ -130,9 +129,13 @@ impl<'m> Folder<'m> {
 
 impl Library for Folder<'_> {
     fn text(&self, name: &str) -> Result<Vec<u8>, String> {
+        self.content(name).map(Content::into_vec)
+    }
+
+    fn content(&self, name: &str) -> Result<Content, String> {
         let path =
             self.find(name).ok_or("there is no such file in the folder of the main program")?;
-        self.files.read(&path).map_err(|e| e.to_string())
+        self.files.read_long(&path).map_err(|e| e.to_string())
     }
 
     fn display(&self, name: &str) -> String {

@@ -128,7 +128,11 @@ impl<'r> Language<'r> for Run<'r> {
 
 impl<'r> Run<'r> {
     fn new(program: &Program, core: Core<'r>) -> Self {
-        let (start, line, end) = structure::main_section(program.source());
+        // Only a file with several programs has the sign that begins one.
+        let (start, line, end) = match program.parts().any(|part| part.contains(&b'%')) {
+            true => structure::main_section(program.source()),
+            false => (0, 1, program.source().len()),
+        };
         Self {
             structures: vec![None],
             loaded: HashMap::new(),

@@ -1,5 +1,7 @@
 //! Files in, files out: the only place of the loop that touches the disk.
 
+#[cfg(unix)]
+mod mapped;
 pub mod output;
 mod scope;
 mod written;
@@ -12,11 +14,17 @@ use std::io::{self, BufWriter, Read, Write};
 use std::path::{Component, Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
-use trueaxis_input::{Diagnostics, Files, Source};
+use trueaxis_input::{Content, Diagnostics, Files, Source};
 use trueaxis_machine::Machine;
 
-/// No file that people write or export is longer; a larger one is refused before it fills the memory.
+/// No file that people write or export is longer, but for programs; a larger one is refused before it fills the memory.
 const MAX_BYTES: u64 = 256 << 20;
+
+/// No program is longer: 10⁷ blocks of five axes.
+const MAX_PROGRAM_BYTES: u64 = 1 << 30;
+
+/// Longer programs are not held in the memory.
+const MAX_HELD_BYTES: u64 = 64 << 20;
 
 /// The disk, within the scope that holds ([`within`]).
 #[derive(Debug, Clone, Copy)]
@@ -25,6 +33,10 @@ struct Disk;
 impl Source for Disk {
     fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
         read_bytes(path)
+    }
+
+    fn read_long(&self, path: &Path) -> io::Result<Content> {
+        read_long(path)
     }
 
     fn is_file(&self, path: &Path) -> bool {
@@ -69,6 +81,11 @@ impl Source for NotedDisk {
         Disk.read(path)
     }
 
+    fn read_long(&self, path: &Path) -> io::Result<Content> {
+        self.0.push(path);
+        Disk.read_long(path)
+    }
+
     fn is_file(&self, path: &Path) -> bool {
         Disk.is_file(path)
     }
@@ -89,14 +106,40 @@ pub fn machine(path: &Path) -> (Option<Machine>, Diagnostics) {
 /// # Errors
 /// What the disk says; a file that is too long.
 pub fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
+    held(&fs::File::open(readable(path)?)?, MAX_BYTES)
+}
+
+/// The bytes of a file up to a limit.
+fn held(file: &fs::File, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     // One byte more than allowed: a device or a pipe does not say its length.
-    fs::File::open(readable(path)?)?.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > MAX_BYTES {
-        let message = format!("files of more than {MAX_BYTES} bytes are not read");
-        return Err(io::Error::new(io::ErrorKind::InvalidData, message));
+    file.take(most + 1).read_to_end(&mut bytes)?;
+    within_limit(bytes.len() as u64, most).map(|()| bytes)
+}
+
+fn within_limit(length: u64, most: u64) -> io::Result<()> {
+    if length <= most {
+        return Ok(());
     }
-    Ok(bytes)
+    let message = format!("files of more than {most} bytes are not read");
+    Err(io::Error::new(io::ErrorKind::InvalidData, message))
+}
+
+/// Reads an NC program: an ordinary file that is long stays on the disk.
+fn read_long(path: &Path) -> io::Result<Content> {
+    let file = fs::File::open(readable(path)?)?;
+    let found = file.metadata()?;
+    if !found.is_file() {
+        return held(&file, MAX_BYTES).map(Content::from);
+    }
+    within_limit(found.len(), MAX_PROGRAM_BYTES)?;
+    #[cfg(unix)]
+    if found.len() > MAX_HELD_BYTES {
+        // One byte more: a file that grows meanwhile is not cut.
+        let copy = mapped::Mapped::copy_of(&file, MAX_PROGRAM_BYTES + 1).map(Content::kept)?;
+        return within_limit(copy.len() as u64, MAX_PROGRAM_BYTES).map(|()| copy);
+    }
+    held(&file, MAX_PROGRAM_BYTES).map(Content::from)
 }
 
 /// Whether an ordinary file stands there that may be read.

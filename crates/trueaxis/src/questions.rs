@@ -29,7 +29,6 @@ mod part;
 mod part_file;
 mod plan;
 mod pose;
-mod pose_table;
 mod post;
 mod predict;
 mod probe;
@@ -65,7 +64,6 @@ pub use part::{MeasurePart, PartAnswer, VerifyPart, VirtualPartAnswer, VirtualPa
 pub use part_file::{AskPart, PartFileAnswer};
 pub use plan::{PlanAnswer, PlanMeasurement};
 pub use pose::{AskPose, PoseAnswer, PoseFound, PoseInput, Positions};
-pub use pose_table::PoseTable;
 pub use post::{Post, PostAnswer, template};
 pub use predict::{Predict, PredictInput, Predicted};
 pub use probe::{IdentifyProbe, ProbeAnswer};
@@ -82,6 +80,7 @@ pub use tool_setting::{
     IdentifyTools, PlanToolSetting, ToolChoice, ToolSettingAnswer, ToolsAnswer,
 };
 pub use trace::{TraceAnswer, TraceBlock};
+pub use trueaxis_motion::PoseTable;
 pub use values::{CompensateValues, ValuesAnswer, ValuesForm};
 pub use verify::{
     CalibrationsAnswer, CertificateAnswer, Certify, CompareCalibrations, VerifyAnswer,

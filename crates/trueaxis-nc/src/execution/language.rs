@@ -117,6 +117,9 @@ pub(crate) trait Language<'r> {
     }
 }
 
+/// So many bytes of a text before the present block are kept, and as many more until they are passed together.
+const KEPT_BACK: usize = 8 << 20;
+
 /// The part of a run that is the same in all languages.
 pub(crate) struct Core<'r> {
     pub library: &'r dyn Library,
@@ -134,6 +137,8 @@ pub(crate) struct Core<'r> {
     is_unread: bool,
     /// The main program, then the others in the order of their first call.
     pub programs: Vec<Rc<Program>>,
+    /// Up to where the text of each was passed.
+    passed: Vec<usize>,
     /// The programs of the library by the name they were asked for.
     loaded: HashMap<String, usize>,
     /// The program and line that are being executed.
@@ -173,6 +178,7 @@ impl<'r> Core<'r> {
             own_call: None,
             is_unread: true,
             programs: vec![Rc::new(program.clone())],
+            passed: Vec::new(),
             loaded: HashMap::new(),
             origin: Origin { program: 0, line: 1 },
             start: 0,
@@ -195,10 +201,24 @@ impl<'r> Core<'r> {
     }
 
     /// A block of a program begins.
-    #[inline]
+    #[inline(always)]
     pub fn begin(&mut self, program: usize, start: usize, line: u32) {
+        let passed = self.passed.get(program).copied().unwrap_or(0);
+        if start < passed || start - passed > 2 * KEPT_BACK {
+            self.pass(program, start);
+        }
         self.start = start;
         self.origin = Origin { program: program as u32, line };
+    }
+
+    /// What lies far before this block is not needed for now; after a jump back it counts from there.
+    #[cold]
+    fn pass(&mut self, program: usize, start: usize) {
+        self.passed.resize(self.programs.len(), 0);
+        let (text, passed) = (&self.programs[program], &mut self.passed[program]);
+        let end = start.saturating_sub(KEPT_BACK);
+        text.pass((*passed).min(end)..end);
+        *passed = end;
     }
 
     #[inline]
@@ -421,10 +441,10 @@ impl<'r> Core<'r> {
         }
         let mut why = "its name is empty".to_owned();
         for known in names {
-            match self.library.text(&known) {
+            match self.library.content(&known) {
                 Ok(text) => {
                     let control = self.programs[0].dialect().control;
-                    let program = Program::new(&self.library.display(&known), text, control);
+                    let program = Program::of(&self.library.display(&known), text, control);
                     self.programs.push(Rc::new(program));
                     let number = self.programs.len() - 1;
                     self.loaded.insert(name.to_owned(), number);

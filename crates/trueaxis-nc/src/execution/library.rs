@@ -1,6 +1,7 @@
 //! Access of a program to other programs and to the kinematics of the machine.
 
 use crate::moves::{Branch, Position};
+use trueaxis_input::Content;
 
 /// Provides the texts of subprograms by name and the rotary angles of the machine: this crate opens no
 /// file and has no model of the machine.
@@ -10,6 +11,14 @@ pub trait Library {
     /// # Errors
     /// A sentence that states why it cannot be read.
     fn text(&self, name: &str) -> Result<Vec<u8>, String>;
+
+    /// The same where it may be long and kept elsewhere than in the memory.
+    ///
+    /// # Errors
+    /// As [`Library::text`].
+    fn content(&self, name: &str) -> Result<Content, String> {
+        self.text(name).map(Content::from)
+    }
 
     /// The name of the program in diagnostics.
     fn display(&self, name: &str) -> String {

@@ -134,8 +134,7 @@ pub(crate) fn line_after_line<'r, L: Language<'r>>(
         && let Some(next) = one(run, at, origin)
     {
         // What comes may have to tell where this line was.
-        let core = run.core();
-        (core.start, core.origin) = (at, origin);
+        run.core().begin(origin.program as usize, at, origin.line);
         at = next;
         origin.line = origin.line.saturating_add(1);
     }

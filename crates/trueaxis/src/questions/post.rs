@@ -11,7 +11,7 @@ use serde_json::Value;
 use std::path::PathBuf;
 use trueaxis_calibrate::plan::extension;
 use trueaxis_cl::{ClFile, ClPath, Reading};
-use trueaxis_input::{Diagnostics, Files, Place};
+use trueaxis_input::{Content, Diagnostics, Files, Place};
 use trueaxis_machine::Machine;
 use trueaxis_part::TestPieceFile;
 use trueaxis_post::{
@@ -82,13 +82,14 @@ pub fn template(control: &str, problems: &mut Diagnostics) -> Option<&'static st
 
 impl Post {
     fn read_file(&self, files: &Files, problems: &mut Diagnostics) -> Option<ClPath> {
-        let text: Vec<u8> =
+        let text: Content =
             match self.file.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
                 true => {
                     test_piece::read(&self.file, files, self.tolerance.parse().ok()?, problems)?
+                        .into_bytes()
                         .into()
                 }
-                false => files.bytes(&self.file, "a cutter-location file", problems)?,
+                false => files.content(&self.file, "a cutter-location file", problems)?,
             };
         let reading = Reading { inches: self.inches };
         Some(problems.keep(ClPath::read(&self.file.display().to_string(), &text, &reading)))

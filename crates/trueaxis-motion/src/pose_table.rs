@@ -1,6 +1,7 @@
 //! The tool at each position of a table: computed in blocks, once to see whether all of it can be, and again while it is written, so that a
 //! table of millions of rows needs little more memory than its own numbers.
 
+use crate::POSE_COLUMNS;
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 use trueaxis_input::CsvTable;
@@ -8,7 +9,6 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::batch::{BatchError, Commands, CompiledMachine, DeviationTable};
 use trueaxis_machine::describe::{axis_index, to_inner};
-use trueaxis_motion::POSE_COLUMNS;
 use trueaxis_report::numbers::push_exact;
 
 /// Rows of a block.
@@ -30,24 +30,24 @@ pub struct PoseTable {
 
 impl PoseTable {
     /// Of a table whose columns are axes of the machine.
-    pub(super) fn new(machine: &Machine, approach: Approach, table: CsvTable) -> Self {
+    pub fn new(machine: &Machine, approach: Approach, table: CsvTable) -> Self {
         let axes = table.columns.iter().filter_map(|c| axis_index(machine, &c.name)).collect();
         let machine = CompiledMachine::new(machine);
         Self { machine, approach, table, axes, conspicuous: Map::new() }
     }
 
     /// The table as it was read.
-    pub(super) fn table(&self) -> &CsvTable {
+    pub fn table(&self) -> &CsvTable {
         &self.table
     }
 
     /// The machine.
-    pub(super) fn machine(&self) -> &Machine {
+    pub fn machine(&self) -> &Machine {
         self.machine.machine()
     }
 
     /// Where the axes stand in a row.
-    pub(super) fn command(&self, row: usize) -> Command {
+    pub fn command(&self, row: usize) -> Command {
         let mut command = Command::default();
         for (column, axis) in self.table.columns.iter().zip(&self.axes) {
             command[*axis] = to_inner(self.machine(), *axis, column.values[row]);
@@ -56,7 +56,7 @@ impl PoseTable {
     }
 
     /// Whether the machine has a pose in every row; keeps the first row for which `is` holds of a number and its heading.
-    pub(super) fn examine(&mut self, is: impl Fn(&str, f64) -> bool + Sync) -> bool {
+    pub fn examine(&mut self, is: impl Fn(&str, f64) -> bool + Sync) -> bool {
         use rayon::prelude::*;
         let names = self.names();
         let examined = |rows: [usize; 2]| {
@@ -77,7 +77,7 @@ impl PoseTable {
     }
 
     /// The row that was kept, as an object under its number; empty if none was.
-    pub(super) fn conspicuous(&self) -> Map<String, Value> {
+    pub fn conspicuous(&self) -> Map<String, Value> {
         self.conspicuous.clone()
     }
 
@@ -106,7 +106,7 @@ impl PoseTable {
     }
 
     /// The headings: the columns of the table, then those of the tool.
-    pub(super) fn names(&self) -> Vec<String> {
+    pub fn names(&self) -> Vec<String> {
         let given = self.table.columns.iter().map(|c| c.name.clone());
         given.chain(POSE_COLUMNS.map(Into::into)).collect()
     }
@@ -153,7 +153,7 @@ impl PoseTable {
     }
 
     /// As a CSV table.
-    pub(super) fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
+    pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "{}", self.names().join(","))?;
         self.write_blocks(out, |found, from| {
             let mut text = String::new();
@@ -171,7 +171,7 @@ impl PoseTable {
     }
 
     /// The rows between the brackets of `"rows": []` of a document, indented as the rest of it.
-    pub(super) fn write_json_rows(&self, out: &mut dyn Write) -> io::Result<()> {
+    pub fn write_json_rows(&self, out: &mut dyn Write) -> io::Result<()> {
         let names = self.names();
         let keys: Vec<String> =
             names.iter().map(|n| format!("\n      {}: ", Value::from(n.as_str()))).collect();
