@@ -24,7 +24,7 @@ const MAX_BYTES: u64 = 256 << 20;
 const MAX_PROGRAM_BYTES: u64 = 1 << 30;
 
 /// Longer programs are not held in the memory.
-const MAX_HELD_BYTES: u64 = 64 << 20;
+const MAX_HELD_BYTES: u64 = 32 << 20;
 
 /// The disk, within the scope that holds ([`within`]).
 #[derive(Debug, Clone, Copy)]
@@ -136,8 +136,12 @@ fn read_long(path: &Path) -> io::Result<Content> {
     #[cfg(unix)]
     if found.len() > MAX_HELD_BYTES {
         // One byte more: a file that grows meanwhile is not cut.
-        let copy = mapped::Mapped::copy_of(&file, MAX_PROGRAM_BYTES + 1).map(Content::kept)?;
-        return within_limit(copy.len() as u64, MAX_PROGRAM_BYTES).map(|()| copy);
+        if let Ok(copy) = mapped::Mapped::copy_of(&file, MAX_PROGRAM_BYTES + 1) {
+            let copy = Content::kept(copy);
+            return within_limit(copy.len() as u64, MAX_PROGRAM_BYTES).map(|()| copy);
+        }
+        // Where there is no room for a copy the text is held.
+        io::Seek::rewind(&mut &file)?;
     }
     held(&file, MAX_PROGRAM_BYTES).map(Content::from)
 }

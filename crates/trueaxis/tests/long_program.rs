@@ -45,7 +45,7 @@ fn a_program_on_the_disk_is_the_same_as_in_the_memory() {
     // Remarks of 100 characters make it long, not slow; a mark of UTF-8 stands before it.
     let remark = format!("({})\n", "-".repeat(100));
     let mut text = b"\xEF\xBB\xBF%\nO1\nG0 X1. Y2. Z3.\n".to_vec();
-    while text.len() < 70 << 20 {
+    while text.len() < 40 << 20 {
         text.extend_from_slice(remark.as_bytes());
     }
     text.extend_from_slice(b"G1 X100. F1000.\nM30\n%\n");

@@ -428,7 +428,7 @@ fn once(
         let gather = Gather::along(nominal, &table, progress);
         Ok(both(gather, walk, |ahead| execute_on(&mounted, program, setup, &settings, ahead)))
     };
-    let reported = computed::may_compute(program.source(), program.dialect().control);
+    let reported = computed::may_compute(program);
     // Another program may compute, too.
     let alone = |outcome: &Outcome| reported || outcome.programs.len() < 2;
     let (outcome, walk) = match walked(reported) {

@@ -247,7 +247,7 @@ impl<'a> Cutting<'a> {
             let [tip, axis] = deviation(k, stop);
             [tip + stop.off[0], axis + stop.off[1]]
         };
-        let first = self.positions.len();
+        let first = self.stops.len();
         let zero = self.setting.as_ref().map_or(Vec3::zeros(), |s| at(first, s)[0]);
         deviations_mm.clear();
         for (k, (position, stop)) in self.positions.iter().zip(&self.stops).enumerate() {

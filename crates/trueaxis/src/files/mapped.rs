@@ -10,7 +10,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read};
 use std::ops::Range;
 use std::os::unix::fs::OpenOptionsExt;
-use std::path::PathBuf;
+use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use trueaxis_input::Kept;
 
@@ -18,12 +18,13 @@ use trueaxis_input::Kept;
 pub(super) struct Mapped(Mmap);
 
 impl Mapped {
-    /// A copy of at most so many bytes.
+    /// A copy of at most so many bytes, in `/var/tmp`, which is on a disk, or else where temporary files are.
     ///
     /// # Errors
     /// What the disk says.
     pub fn copy_of(file: &File, most: u64) -> io::Result<Self> {
-        let mut copy = without_name()?;
+        let on_disk = without_name(Path::new("/var/tmp"));
+        let mut copy = on_disk.or_else(|_| without_name(&std::env::temp_dir()))?;
         io::copy(&mut file.take(most), &mut copy)?;
         // SAFETY: the copy has no name and only this process has opened it; nothing writes to it after this line.
         let map = unsafe { Mmap::map(&copy) }?;
@@ -48,11 +49,9 @@ impl Kept for Mapped {
     }
 }
 
-/// A file that vanishes with the last who has opened it: on a disk, where there is one for long temporary files.
-fn without_name() -> io::Result<File> {
+/// A file in a folder that vanishes with the last who has opened it.
+fn without_name(folder: &Path) -> io::Result<File> {
     static COUNT: AtomicUsize = AtomicUsize::new(0);
-    let on_disk = PathBuf::from("/var/tmp");
-    let folder = if on_disk.is_dir() { on_disk } else { std::env::temp_dir() };
     let mut last = io::Error::from(io::ErrorKind::AlreadyExists);
     // A name that is taken, by a link perhaps, is not opened.
     for _ in 0..100 {
@@ -87,5 +86,6 @@ mod tests {
             copy.pass(range);
             assert!(copy.bytes() == text);
         }
+        assert!(without_name(Path::new("/var/no/such/folder")).is_err());
     }
 }

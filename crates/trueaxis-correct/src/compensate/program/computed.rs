@@ -16,8 +16,8 @@ use super::refuse::refusal;
 use super::words::{Word, Words};
 use std::ops::Range;
 use trueaxis_motion::axis_path::Fault;
-use trueaxis_nc::Control;
 use trueaxis_nc::moves::{Axis, AxisSet, CompensationSide, Event, Move};
+use trueaxis_nc::{Control, Program};
 
 /// All axes.
 const ALL: AxisSet = AxisSet(0b1_1111_1111);
@@ -239,7 +239,14 @@ pub(super) fn free_locals(source: &[u8], control: Control) -> Vec<u16> {
 }
 
 /// Whether a program may compute a word: blocks are reported for these, which takes time.
-pub(super) fn may_compute(source: &[u8], control: Control) -> bool {
+pub(super) fn may_compute(program: &Program) -> bool {
+    let may = computes_in(program.source(), program.dialect().control);
+    // From here on the text is read line after line.
+    program.pass(0..program.source().len());
+    may
+}
+
+fn computes_in(source: &[u8], control: Control) -> bool {
     match control {
         Control::Fanuc | Control::Haas | Control::LinuxCnc => {
             source.iter().any(|b| matches!(b, b'#' | b'['))
