@@ -24,6 +24,7 @@ const MAX_BYTES: u64 = 256 << 20;
 const MAX_PROGRAM_BYTES: u64 = 1 << 30;
 
 /// Longer programs are not held in the memory.
+#[cfg(unix)]
 const MAX_HELD_BYTES: u64 = 32 << 20;
 
 /// The disk, within the scope that holds ([`within`]).
