@@ -260,13 +260,28 @@ pub(crate) fn rows_excess(bad: usize, place: Place, problems: &mut Diagnostics) 
 
 /// The bound that a number exceeds under a heading: no machine has such a value, whatever the table is about.
 pub(crate) fn too_large(heading: &str, value: f64) -> Option<&'static str> {
-    // Below this no unit of a heading makes a number too large: the usual case is fast.
-    if value.abs() < 10.0 {
-        return None;
+    // The usual case is fast: the heading is not read.
+    if value.abs() < SMALL { None } else { Bound::of(heading).excess(value) }
+}
+
+/// Below this no unit of a heading makes a number too large.
+const SMALL: f64 = 10.0;
+
+/// The largest number under a heading.
+struct Bound(Option<(Unit, f64, &'static str)>);
+
+impl Bound {
+    fn of(heading: &str) -> Self {
+        Self(largest_under(heading))
     }
-    match largest_under(heading) {
-        Some((unit, largest, words)) => (unit.to_inner(value).abs() > largest).then_some(words),
-        None => (value.abs() > LARGEST_NUMBER).then_some("10^12"),
+
+    /// The bound in words, if a number exceeds it.
+    fn excess(&self, value: f64) -> Option<&'static str> {
+        match self.0 {
+            _ if value.abs() < SMALL => None,
+            Some((unit, largest, words)) => (unit.to_inner(value).abs() > largest).then_some(words),
+            None => (value.abs() > LARGEST_NUMBER).then_some("10^12"),
+        }
     }
 }
 

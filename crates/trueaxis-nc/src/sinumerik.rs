@@ -128,11 +128,7 @@ impl<'r> Language<'r> for Run<'r> {
 
 impl<'r> Run<'r> {
     fn new(program: &Program, core: Core<'r>) -> Self {
-        // Only a file with several programs has the sign that begins one.
-        let (start, line, end) = match program.parts().any(|part| part.contains(&b'%')) {
-            true => structure::main_section(program.source()),
-            false => (0, 1, program.source().len()),
-        };
+        let (start, line, end) = structure::main_section(program);
         Self {
             structures: vec![None],
             loaded: HashMap::new(),

@@ -120,8 +120,10 @@ pub fn plain_name(name: &str) -> String {
 }
 
 /// The main program of a file: its first byte, line and end.
-pub fn main_section(source: &[u8]) -> (usize, u32, usize) {
-    if !source.contains(&b'%') {
+pub fn main_section(program: &Program) -> (usize, u32, usize) {
+    let source = program.source();
+    // Only a file of several programs has the sign that begins one.
+    if !program.parts().any(|part| part.contains(&b'%')) {
         return (0, 1, source.len());
     }
     let mut start = 0;
@@ -276,7 +278,10 @@ mod tests {
 
     #[test]
     fn the_main_program_ends_where_the_next_begins() {
-        assert_eq!(main_section(b"%_N_A_MPF\nG0\n%_N_B_SPF\nM17\n"), (0, 1, 13));
-        assert_eq!(main_section(b"G0 X1\n"), (0, 1, 6));
+        let main_of = |text: &str| {
+            main_section(&Program::new("p", text.into(), crate::Control::Sinumerik840d))
+        };
+        assert_eq!(main_of("%_N_A_MPF\nG0\n%_N_B_SPF\nM17\n"), (0, 1, 13));
+        assert_eq!(main_of("G0 X1\n"), (0, 1, 6));
     }
 }

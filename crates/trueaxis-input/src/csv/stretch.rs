@@ -1,9 +1,7 @@
 //! Rows without a problem, stretch by stretch in all threads: the same table as row by row.
 
-use super::{CsvTable, LARGEST_NUMBER, Numbered};
-use crate::Unit;
+use super::{Bound, CsvTable, Numbered};
 use crate::limits::MOST_ROWS;
-use crate::plausible::largest_under;
 use rayon::prelude::*;
 
 /// Bytes of a stretch, to the end of its last line.
@@ -68,7 +66,8 @@ impl Rows {
             let mut fields = line.split(',');
             for (column, bound) in rows.columns.iter_mut().zip(bounds) {
                 let value: f64 = fields.next()?.trim().parse().ok()?;
-                column.push(Some(value).filter(|v| v.is_finite() && bound.holds(*v))?);
+                let is_sound = value.is_finite() && bound.excess(value).is_none();
+                column.push(is_sound.then_some(value)?);
             }
             if fields.next().is_some() {
                 return None;
@@ -77,23 +76,6 @@ impl Rows {
         }
         rows.count = text.line;
         Some(rows)
-    }
-}
-
-/// What the numbers of a column may be: as [`super::too_large`], which reads the heading each time.
-struct Bound(Option<(Unit, f64)>);
-
-impl Bound {
-    fn of(heading: &str) -> Self {
-        Self(largest_under(heading).map(|(unit, largest, _)| (unit, largest)))
-    }
-
-    fn holds(&self, value: f64) -> bool {
-        match self.0 {
-            _ if value.abs() < 10.0 => true,
-            Some((unit, largest)) => unit.to_inner(value).abs() <= largest,
-            None => value.abs() <= LARGEST_NUMBER,
-        }
     }
 }
 

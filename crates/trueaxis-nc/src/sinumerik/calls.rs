@@ -349,7 +349,7 @@ impl Run<'_> {
             names.push(format!("{}.{end}", plain.to_ascii_lowercase()));
         }
         let number = self.core.load(name, names, at)?;
-        let (start, line, end) = main_section(self.core.programs[number].source());
+        let (start, line, end) = main_section(&self.core.programs[number]);
         let found = (number, start..end, line);
         self.loaded.insert(plain, found.clone());
         Ok(found)
