@@ -35,6 +35,7 @@ pub use compensated::{
     CommandColumns, CommandTable, CompensationError, CompiledCompensator, Effort,
 };
 pub use inverse::{CompiledInverse, InverseError, TargetColumns};
+pub(crate) use inverse::{aim_group, place_group};
 pub use motion::LARGEST_TURN_RAD;
 
 use crate::axis::{Approach, Command, MAX_AXES};

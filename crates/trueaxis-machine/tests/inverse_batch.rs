@@ -6,10 +6,11 @@ use library::{FIVE_AXIS, Random, machine};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Direction, Workpiece};
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::Command;
+use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::batch::{
     BatchError, CommandTable, CompiledInverse, InstructionSet, InverseError, TargetColumns,
 };
+use trueaxis_machine::file::NoTables;
 use trueaxis_machine::tcp::TipControl;
 
 /// Tips and tool axes along a path: steps, jumps, and places at a pole and close to it.
@@ -152,6 +153,51 @@ fn law_four_poses_are_four_single_ones() {
             }
             last = single[3];
         }
+    }
+}
+
+/// Many poses are those one after the other: tips placed, and the tool at commands; in groups of any size, with angles beyond
+/// those of the closed form too, on machines with three axes, with five and with a parallel one.
+#[test]
+fn law_many_poses_are_single_ones() {
+    let others = ["w b X Y Z t", "w C' b X Y Z U B t", "w X' b C Y Z t"];
+    let named = FIVE_AXIS.into_iter().map(machine);
+    let stated = others.map(|chain| {
+        let text =
+            format!("[machine]\nname = \"m\"\nchain = \"{chain}\"\n[tool]\nlength = \"80 mm\"\n");
+        Machine::check("m.toml", &text, &NoTables).0.expect("a machine")
+    });
+    for machine in named.chain(stated) {
+        let control = TipControl::of(&machine).expect("three linear axes");
+        let mut random = Random(7);
+        for count in [0, 1, 63, 64, 65, 200] {
+            let mut commands: Vec<_> = (0..count).map(|_| random.command(&machine)).collect();
+            let rotary = machine.axes().iter().position(|axis| axis.kind == AxisKind::Rotary);
+            if let (200, Some(axis)) = (count, rotary) {
+                commands[130][axis] = 2e6;
+            }
+            let mut tools = Vec::new();
+            control.tips_and_axes(&commands, &mut tools);
+            assert_eq!(tools.len(), count);
+            for (command, (tip, axis)) in commands.iter().zip(&tools) {
+                let (there, along) = control.tip_and_axis(command);
+                let off = [(tip - there).norm(), (axis - along).norm()];
+                assert!(off[0] < 1e-9 && off[1] < 1e-13, "{off:?} {command:?}");
+            }
+            let tips: Vec<_> = tools.iter().map(|(tip, _)| tip + tip.yzx() * 0.01).collect();
+            let mut placed = commands.clone();
+            let mut singles = commands.clone();
+            let each = tips.iter().zip(&mut singles);
+            let reached = each.map(|(tip, single)| usize::from(control.place(*tip, single)));
+            let reached: usize = reached.sum();
+            assert_eq!(control.place_all(&tips, &mut placed), reached == count);
+            for (placed, single) in placed.iter().zip(&singles).filter(|_| reached == count) {
+                let off = placed.iter().zip(single).map(|(a, b)| (a - b).abs());
+                assert!(off.fold(0.0, f64::max) < 1e-9, "{placed:?} {single:?}");
+            }
+        }
+        let nowhere = Vec3::new(0.0, f64::NAN, 0.0);
+        assert!(!control.place_all(&[nowhere], &mut [[0.0; 6]]));
     }
 }
 

@@ -78,53 +78,66 @@ pub(crate) fn pass_poles(path: &mut Path, control: &TipControl, pole_rad: f64) -
             stand.axis = onto_pole(stand.axis);
         }
     }
-    if let Some(first) = first_cut(path, &pole, near) {
-        cut_at_pole(path, &pole, near, first, &mut onto_pole);
+    let cuts = all_cuts(path, &pole, near);
+    if !cuts.is_empty() {
+        cut_at_pole(path, &cuts, &mut onto_pole);
     }
     // What is below the digits of programs is not reported as a deviation.
     if most > POLE_RAD { most } else { 0.0 }
 }
 
-/// The first stroke that has to be cut.
-fn first_cut(path: &Path, pole: &Vec3, near: f64) -> Option<usize> {
+/// The strokes that have to be cut, and where.
+type StrokeCuts = Vec<(usize, Vec<f64>)>;
+
+fn all_cuts(path: &Path, pole: &Vec3, near: f64) -> StrokeCuts {
     let ends = path.strokes.ends();
-    (1..ends.len())
-        .find(|&i| !cuts_at_pole(&ends[i - 1].axis, &ends[i].axis, pole, near).is_empty())
+    let strokes = ends.len().saturating_sub(1);
+    let find = |block: usize, found: &mut StrokeCuts| {
+        let first = 1 + block * BLOCK;
+        let of = |i: usize| (i, cuts_at_pole(&ends[i - 1].axis, &ends[i].axis, pole, near));
+        let last = ends.len().min(first + BLOCK);
+        found.clear();
+        found.extend((first..last).map(of).filter(|(_, cuts)| !cuts.is_empty()));
+    };
+    let mut all = Vec::new();
+    in_order(strokes.div_ceil(BLOCK), usual_threads(), &find, &mut |found| {
+        all.append(found);
+        true
+    });
+    all
 }
 
-/// Cuts strokes from one on; the numbers of strokes that events and holes name follow.
-fn cut_at_pole(
-    path: &mut Path,
-    pole: &Vec3,
-    near: f64,
-    first: usize,
-    onto_pole: &mut dyn FnMut(Vec3) -> Vec3,
-) {
-    let (mut strokes, mut moved) = (Strokes::default(), Vec::new());
-    for (i, stroke) in path.strokes.iter().enumerate() {
-        moved.push(strokes.len());
-        if i < first {
-            strokes.push(&stroke);
-            continue;
-        }
-        let from = path.strokes.to(i - 1);
-        let cuts = cuts_at_pole(&from.axis, &stroke.to.axis, pole, near);
+/// Cuts strokes; the numbers of strokes that events and holes name follow.
+fn cut_at_pole(path: &mut Path, cuts: &StrokeCuts, onto_pole: &mut dyn FnMut(Vec3) -> Vec3) {
+    let (mut strokes, mut next) = (Strokes::default(), 0);
+    // How many strokes there are more, from the stroke after one on.
+    let (mut more, mut added) = (Vec::new(), 0);
+    for (i, cuts) in cuts {
+        strokes.push_all(&path.strokes, next..*i);
+        let (from, stroke) = (path.strokes.to(i - 1), path.strokes.get(*i));
         let mut before = 0.0;
-        for u in cuts {
+        for &u in cuts {
             let mut to = stroke.at(&from, u);
             to.axis = onto_pole(to.axis);
             strokes.push(&Stroke { to, way: part(&stroke.way, u - before), ..stroke });
             before = u;
         }
         strokes.push(&Stroke { way: part(&stroke.way, 1.0 - before), ..stroke });
+        next = i + 1;
+        added += cuts.len();
+        more.push((*i, added));
     }
-    moved.push(strokes.len());
+    strokes.push_all(&path.strokes, next..path.strokes.len());
+    let moved = |at: usize| {
+        let before = more.partition_point(|(stroke, _)| *stroke < at);
+        at + before.checked_sub(1).map_or(0, |last| more[last].1)
+    };
     for (at, _) in &mut path.events {
-        *at = moved[*at];
+        *at = moved(*at);
     }
     for hole in &mut path.holes {
-        (hole.begin, hole.down) = (moved[hole.begin], moved[hole.down]);
-        hole.last = moved[hole.last + 1] - 1;
+        (hole.begin, hole.down) = (moved(hole.begin), moved(hole.down));
+        hole.last = moved(hole.last + 1) - 1;
     }
     path.strokes = strokes;
 }

@@ -43,6 +43,8 @@ pub(crate) struct Cutter<'c> {
     half_increment_rad: f64,
     /// The linear axes are those that place the tip, and no others.
     pub has_three_linear: bool,
+    /// 10 to the decimals of written angles.
+    angle_scale: f64,
     /// 10 to the decimals of written vectors; `None` where angles are written.
     vector_scale: Option<f64>,
 }
@@ -78,6 +80,7 @@ impl<'c> Cutter<'c> {
             half_increment_rad: 0.5 * 10_f64.powi(-i32::from(options.decimals.angle)).to_radians(),
             has_three_linear: machine.axes().len() == 3 + rotary.len(),
             rotary,
+            angle_scale: 10_f64.powi(i32::from(options.decimals.angle)),
             vector_scale: (options.tip_words == Some(TipWords::Vectors))
                 .then(|| 10_f64.powi(i32::from(options.decimals.vector))),
         }
@@ -103,22 +106,26 @@ impl<'c> Cutter<'c> {
     }
 
     fn printed(&self, stand: &Stand, command: &Command) -> Option<Command> {
-        let scale = 10_f64.powi(i32::from(self.options.decimals.angle));
         let mut printed = *command;
-        for &axis in &self.rotary {
-            let q = &mut printed[axis];
-            *q = ((q.to_degrees() * scale).round_ties_even() / scale).to_radians();
-        }
+        self.round(&mut printed);
         self.control.place(stand.tip, &mut printed).then_some(printed)
     }
 
-    /// The end of a line that can be left to the control at a glance, where it can; its rotary axes are enough.
-    pub fn whole(&self, stroke: &Stroke, from: &Node, turned: &Command) -> Option<Node> {
-        if !self.has_three_linear || !self.is_near_at_a_glance(stroke, from, turned) {
-            return None;
+    fn round(&self, command: &mut Command) {
+        for &axis in &self.rotary {
+            let q = &mut command[axis];
+            *q = ((q.to_degrees() * self.angle_scale).round_ties_even() / self.angle_scale)
+                .to_radians();
         }
-        let command = self.printed(&stroke.to, turned)?;
-        Some(Node { u: 1.0, stand: stroke.to, command })
+    }
+
+    /// What is printed at ends in a row of which the rotary axes are known; `false` where that is not enough.
+    pub fn print_ends(&self, tips: &[Vec3], commands: &mut [Command]) -> bool {
+        if !self.has_three_linear || self.has_vectors() {
+            return false;
+        }
+        commands.iter_mut().for_each(|command| self.round(command));
+        self.control.place_all(tips, commands)
     }
 
     /// Hands out the ends of the pieces of a stroke from `from` to `to`, which is its end.

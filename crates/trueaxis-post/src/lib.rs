@@ -182,10 +182,10 @@ pub fn post_path(
     }
     let pole_deviation_rad = axes::pass_poles(&mut path, &control, options.pole_rad);
     match write(machine, &control, &path, options) {
-        Ok((Written { text, places, drilled, blocks, arcs }, rewinds)) => {
+        Ok((Written { text, lines, places, drilled, blocks, arcs }, rewinds)) => {
             let strokes = path.strokes.len();
             let posted = Posted {
-                lines: text.iter().filter(|b| **b == b'\n').count(),
+                lines,
                 text,
                 strokes,
                 blocks,

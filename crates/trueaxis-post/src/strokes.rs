@@ -1,6 +1,7 @@
 //! The strokes of a whole file in little memory.
 
 use crate::path::{Stand, Stroke, Way};
+use std::ops::Range;
 
 /// What changes from stroke to stroke seldom.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,6 +44,25 @@ impl Strokes {
         self.ends.push(to);
     }
 
+    /// Appends strokes of another list.
+    pub fn push_all(&mut self, others: &Self, range: Range<usize>) {
+        let shift = self.ends.len() as i64 - range.start as i64;
+        let before = others.modes.partition_point(|(from, _)| *from <= range.start);
+        for (from, mode) in &others.modes[before.saturating_sub(1)..] {
+            if *from >= range.end || range.is_empty() {
+                break;
+            }
+            let index = (range.start.max(*from) as i64 + shift) as usize;
+            let mode = Mode { line: mode.line - shift, ..*mode };
+            if self.modes.last().is_none_or(|(_, last)| *last != mode) {
+                self.modes.push((index, mode));
+            }
+        }
+        let arcs = others.arcs.iter().filter(|(at, _)| range.contains(at));
+        self.arcs.extend(arcs.map(|(at, way)| ((*at as i64 + shift) as usize, *way)));
+        self.ends.extend_from_slice(&others.ends[range]);
+    }
+
     /// Where a stroke ends.
     pub fn to(&self, index: usize) -> Stand {
         self.ends[index]
@@ -81,8 +101,35 @@ impl Strokes {
         };
         Stroke { to: self.ends[index], way, rapid, feed, line }
     }
+}
 
-    pub fn iter(&self) -> impl Iterator<Item = Stroke> {
-        (0..self.len()).map(|index| self.get(index))
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trueaxis_geometry::Vec3;
+
+    /// Strokes in pieces from another list are those pushed one by one; with feeds, lines and arcs that change.
+    #[test]
+    fn law_strokes_of_another_list_are_those_pushed_one_by_one() {
+        let arc = Way::Arc { center: Vec3::zeros(), normal: Vec3::z(), angle_rad: 1.0 };
+        let mut all = Strokes::default();
+        for i in 0..60_u32 {
+            let to = Stand { tip: Vec3::repeat(f64::from(i)), axis: Vec3::z() };
+            let way = if i % 7 == 3 { arc } else { Way::Line };
+            let (rapid, feed) = (i % 20 < 2, f64::from(i / 9));
+            all.push(&Stroke { to, way, rapid, feed, line: i + i / 11 });
+        }
+        for first in 0..60 {
+            for last in first..=60 {
+                let (mut pieces, mut single) = (Strokes::default(), Strokes::default());
+                for range in [0..first.min(5), first..last, 40..40, last / 2..last] {
+                    pieces.push_all(&all, range.clone());
+                    range.for_each(|i| single.push(&all.get(i)));
+                }
+                let list = |s: &Strokes| (0..s.len()).map(|i| s.get(i)).collect::<Vec<Stroke>>();
+                assert_eq!(list(&pieces), list(&single));
+                assert_eq!(pieces.modes, single.modes);
+            }
+        }
     }
 }

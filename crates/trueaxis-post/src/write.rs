@@ -44,6 +44,7 @@ pub(crate) struct Post<'p> {
 /// What was written.
 pub(crate) struct Written {
     pub text: Vec<u8>,
+    pub lines: usize,
     pub places: Places,
     pub drilled: Vec<HolePlace>,
     pub blocks: usize,
@@ -130,8 +131,8 @@ impl<'p> Post<'p> {
     pub fn end(mut self) -> Result<Written, Fault> {
         self.events(self.path.strokes.len())?;
         self.block(&Block::End, 0)?;
-        let Self { writer, places, drilled, blocks, arcs, .. } = self;
-        Ok(Written { text: writer.finish(), places, drilled, blocks, arcs })
+        let Self { writer, line, places, drilled, blocks, arcs, .. } = self;
+        Ok(Written { text: writer.finish(), lines: line as usize, places, drilled, blocks, arcs })
     }
 
     fn tool(&mut self, number: u32, text: &str) -> Result<(), Fault> {

@@ -165,6 +165,7 @@ pub struct Target {
 impl Target {
     /// The target with one more axis, mm or degrees.
     #[must_use]
+    #[inline]
     pub fn at(mut self, axis: Axis, value: f64) -> Self {
         self.place[axis] = value;
         self.named = self.named.with(axis);
@@ -173,6 +174,7 @@ impl Target {
 
     /// The target with a tool axis.
     #[must_use]
+    #[inline]
     pub fn along(self, direction: [f64; 3]) -> Self {
         Self { direction: Some(direction), ..self }
     }

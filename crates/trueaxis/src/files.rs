@@ -247,9 +247,7 @@ pub fn write_folder(place: &Path, files: &[(String, String)]) -> io::Result<()> 
 /// # Errors
 /// What the disk says.
 pub fn write_in_folder(path: &Path, content: &[u8]) -> io::Result<()> {
-    write_with_folder(path, content)?;
-    written::note(path);
-    Ok(())
+    written::write_and_note(path, content, || write_with_folder(path, content))
 }
 
 /// How the names of files and folders begin and end that are being written.

@@ -44,6 +44,26 @@ pub(super) fn place_by<const W: usize, const N: usize, L: Lanes<W>>(
     }
 }
 
+/// Tip and tool axis at commands: x y z each.
+#[inline(always)]
+pub(super) fn tool_by<const W: usize, const N: usize, L: Lanes<W>>(
+    form: &ClosedForm,
+    commands: &[[f64; N]; MAX_AXES],
+    out: &mut [[f64; N]; 6],
+) {
+    for at in (0..N).step_by(W) {
+        let mut q = [L::splat(0.0); MAX_AXES];
+        for axis in 0..MAX_AXES {
+            q[axis] = lanes(&commands[axis], at);
+        }
+        let [tip, axis] = form.tool(&q, &form.sines(&q));
+        for k in 0..3 {
+            put(&mut out[k], at, tip[k]);
+            put(&mut out[3 + k], at, axis[k]);
+        }
+    }
+}
+
 #[inline(always)]
 pub(super) fn lanes<const W: usize, const N: usize, L: Lanes<W>>(
     column: &[f64; N],

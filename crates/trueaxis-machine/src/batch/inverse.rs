@@ -8,7 +8,7 @@
 //! Poles, and directions where two branches meet, are left to the scalar form, so every target has the result that
 //! [`TipControl::aim_nearest`] and [`TipControl::place`] give, to 1e-12 rad and 1e-9 mm.
 
-use super::groups::{aim_by, place_by};
+use super::groups::{self, aim_by, place_by};
 use super::{BatchError, CommandColumns, InstructionSet};
 use crate::axis::{Command, MAX_AXES};
 use crate::inverse::{Aim, ClosedForm, SolveError};
@@ -163,7 +163,7 @@ impl TipControl {
     ) -> Result<(), (usize, SolveError)> {
         let mut angles = [[0.0; N]; 4];
         let aim = self.two_axes();
-        let undecided = aim.map_or(u64::MAX, |aim| branches(set, aim, axes, &mut angles));
+        let undecided = aim.map_or(u64::MAX, |aim| aim_group(set, aim, axes, &mut angles));
         for i in 0..count {
             let axis = Vec3::new(axes[0][i], axes[1][i], axes[2][i]);
             let [a1, b1, a2, b2] = &angles;
@@ -176,7 +176,7 @@ impl TipControl {
         let Some(form) = self.closed_form().filter(|form| form.holds(commands)) else {
             return self.place_each(tips, count, commands);
         };
-        place(set, form, tips, commands);
+        place_group(set, form, tips, commands);
         let finite = |i: &usize| form.placing.iter().all(|axis| commands[*axis][*i].is_finite());
         match (0..count).find(|i| !finite(i)) {
             Some(i) => Err((i, SolveError::NotFinite)),
@@ -213,13 +213,68 @@ impl TipControl {
         };
         let tips = std::array::from_fn(|k| std::array::from_fn(|i| tips_mm[i][k]));
         let mut columns = std::array::from_fn(|axis| std::array::from_fn(|i| commands[i][axis]));
-        place::<4>(four(), form, &tips, &mut columns);
+        place_group::<4>(four(), form, &tips, &mut columns);
         for axis in form.placing {
             for (command, q) in commands.iter_mut().zip(columns[axis]) {
                 command[axis] = q;
             }
         }
         form.placing.iter().all(|axis| columns[*axis].iter().all(|q| q.is_finite()))
+    }
+
+    /// Places the tips of any number of poses, as [`TipControl::place`] does one after the other; `false`, and nothing
+    /// placed for certain, if one of them is not reached.
+    ///
+    /// # Panics
+    /// If there are not as many tips as commands.
+    pub fn place_all(&self, tips_mm: &[Vec3], commands: &mut [Command]) -> bool {
+        assert_eq!(tips_mm.len(), commands.len(), "one tip for each command");
+        let groups = tips_mm.chunks(TOGETHER).zip(commands.chunks_mut(TOGETHER));
+        groups.into_iter().all(|(tips, commands)| self.place_group(tips, commands))
+    }
+
+    fn place_group(&self, tips_mm: &[Vec3], commands: &mut [Command]) -> bool {
+        let form = self.closed_form();
+        let Some(form) = form.filter(|form| commands.iter().all(|c| form.holds_for(c))) else {
+            return tips_mm.iter().zip(commands).all(|(tip, command)| self.place(*tip, command));
+        };
+        let mut tips = [[0.0; TOGETHER]; 3];
+        let mut columns = [[0.0; TOGETHER]; MAX_AXES];
+        for (i, (tip, command)) in tips_mm.iter().zip(&*commands).enumerate() {
+            tips.iter_mut().zip(tip.iter()).for_each(|(column, x)| column[i] = *x);
+            columns.iter_mut().zip(command).for_each(|(column, q)| column[i] = *q);
+        }
+        place_group(InstructionSet::best(), form, &tips, &mut columns);
+        let mut is_finite = true;
+        for (i, command) in commands.iter_mut().enumerate() {
+            for axis in form.placing {
+                command[axis] = columns[axis][i];
+                is_finite &= command[axis].is_finite();
+            }
+        }
+        is_finite
+    }
+
+    /// Tip (mm) and tool axis (unit vector) at any number of commands, as [`TipControl::tip_and_axis`] gives them one after the
+    /// other, appended to `out`.
+    pub fn tips_and_axes(&self, commands: &[Command], out: &mut Vec<(Vec3, Vec3)>) {
+        for group in commands.chunks(TOGETHER) {
+            let form = self.closed_form();
+            let form = form.filter(|form| group.iter().all(|c| form.holds_for(c)));
+            let Some(form) = form else {
+                out.extend(group.iter().map(|command| self.tip_and_axis(command)));
+                continue;
+            };
+            let (mut columns, mut found) = ([[0.0; TOGETHER]; MAX_AXES], [[0.0; TOGETHER]; 6]);
+            for (i, command) in group.iter().enumerate() {
+                columns.iter_mut().zip(command).for_each(|(column, q)| column[i] = *q);
+            }
+            tool_group(InstructionSet::best(), form, &columns, &mut found);
+            let vector = |first: usize, i: usize| {
+                Vec3::new(found[first][i], found[first + 1][i], found[first + 2][i])
+            };
+            out.extend((0..group.len()).map(|i| (vector(0, i), vector(3, i))));
+        }
     }
 
     /// The nearest positions of the rotary axes for four directions, one after the other: the first is nearest to
@@ -236,7 +291,7 @@ impl TipControl {
         let columns = std::array::from_fn(|k| std::array::from_fn(|i| vectors[i][k]));
         let mut angles = [[0.0; 4]; 4];
         let aim = self.two_axes();
-        let undecided = aim.map_or(u64::MAX, |aim| branches(four(), aim, &columns, &mut angles));
+        let undecided = aim.map_or(u64::MAX, |aim| aim_group(four(), aim, &columns, &mut angles));
         let (mut last, mut commands) = (*from, [*from; 4]);
         for (i, command) in commands.iter_mut().enumerate() {
             let known = (undecided >> i & 1 == 0).then(|| angles.map(|column| column[i]));
@@ -256,7 +311,7 @@ fn four() -> InstructionSet {
 }
 
 /// First and second angle of one branch and of the other, and the poses that only the scalar form can decide.
-fn branches<const N: usize>(
+pub(crate) fn aim_group<const N: usize>(
     set: InstructionSet,
     aim: &Aim,
     axes: &[[f64; N]; 3],
@@ -272,7 +327,7 @@ fn branches<const N: usize>(
 }
 
 /// The linear axes of the commands.
-fn place<const N: usize>(
+pub(crate) fn place_group<const N: usize>(
     set: InstructionSet,
     form: &ClosedForm,
     tips: &[[f64; N]; 3],
@@ -284,5 +339,21 @@ fn place<const N: usize>(
         #[cfg(target_arch = "x86_64")]
         InstructionSet::Avx2 => super::x86::place_avx2(form, tips, commands),
         _ => place_by::<4, N, Plain<4>>(form, tips, commands),
+    }
+}
+
+/// Tip and tool axis at commands.
+fn tool_group<const N: usize>(
+    set: InstructionSet,
+    form: &ClosedForm,
+    commands: &[[f64; N]; MAX_AXES],
+    out: &mut [[f64; N]; 6],
+) {
+    match set {
+        #[cfg(target_arch = "x86_64")]
+        InstructionSet::Avx512 => super::x86::tool_avx512(form, commands, out),
+        #[cfg(target_arch = "x86_64")]
+        InstructionSet::Avx2 => super::x86::tool_avx2(form, commands, out),
+        _ => groups::tool_by::<4, N, Plain<4>>(form, commands, out),
     }
 }

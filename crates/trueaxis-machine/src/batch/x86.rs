@@ -1,17 +1,18 @@
-//! FourPoses and eight poses at a time with the vector instructions of x86-64.
+//! Four and eight poses at a time with the vector instructions of x86-64.
 //!
 //! The lane types are private to this file, and its entries ask the processor first: no
 //! instruction below is ever reached on a processor without it.
+
+mod inverse;
 
 use super::columns::DeviationColumns;
 use super::compensated::{CommandColumns, CompensationError, CompensationJob, Effort, newton};
 use super::drawn::{self, Drawn, Factors};
 use super::lanes::PoseLanes;
 use super::pieces::Row;
-use super::{BatchError, InstructionSet, Job, groups, kernel};
-use crate::axis::MAX_AXES;
-use crate::inverse::{Aim, ClosedForm};
-use crate::lanes::{Lanes, Plain};
+use super::{BatchError, InstructionSet, Job, kernel};
+use crate::lanes::Lanes;
+pub(super) use inverse::*;
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -85,90 +86,6 @@ fn compensate_with_avx512(
     out: &mut CommandColumns<'_>,
 ) -> Result<Effort, CompensationError> {
     newton::run::<8, EightPoses>(job, out)
-}
-
-/// Both branches of the angles that aim the tool; for a processor with AVX2, else undecided.
-pub(super) fn aim_avx2<const N: usize>(
-    aim: &Aim,
-    axes: &[[f64; N]; 3],
-    out: &mut [[f64; N]; 4],
-) -> u64 {
-    if !has_avx2() {
-        return u64::MAX;
-    }
-    // SAFETY: the processor has AVX2 and FMA; asked three lines above.
-    unsafe { aim_with_avx2(aim, axes, out) }
-}
-
-/// The same for a processor with AVX-512.
-pub(super) fn aim_avx512<const N: usize>(
-    aim: &Aim,
-    axes: &[[f64; N]; 3],
-    out: &mut [[f64; N]; 4],
-) -> u64 {
-    if !has_avx512() {
-        return u64::MAX;
-    }
-    // SAFETY: the processor has AVX2, FMA and AVX-512F; asked three lines above.
-    unsafe { aim_with_avx512(aim, axes, out) }
-}
-
-#[target_feature(enable = "avx2,fma")]
-fn aim_with_avx2<const N: usize>(aim: &Aim, axes: &[[f64; N]; 3], out: &mut [[f64; N]; 4]) -> u64 {
-    groups::aim_by::<4, N, FourPoses>(aim, axes, out)
-}
-
-#[target_feature(enable = "avx2,fma,avx512f")]
-fn aim_with_avx512<const N: usize>(
-    aim: &Aim,
-    axes: &[[f64; N]; 3],
-    out: &mut [[f64; N]; 4],
-) -> u64 {
-    groups::aim_by::<8, N, EightPoses>(aim, axes, out)
-}
-
-/// The linear axes of commands; for a processor with AVX2, else the plain way.
-pub(super) fn place_avx2<const N: usize>(
-    form: &ClosedForm,
-    tips: &[[f64; N]; 3],
-    commands: &mut [[f64; N]; MAX_AXES],
-) {
-    if !has_avx2() {
-        return groups::place_by::<4, N, Plain<4>>(form, tips, commands);
-    }
-    // SAFETY: the processor has AVX2 and FMA; asked three lines above.
-    unsafe { place_with_avx2(form, tips, commands) }
-}
-
-/// The same for a processor with AVX-512.
-pub(super) fn place_avx512<const N: usize>(
-    form: &ClosedForm,
-    tips: &[[f64; N]; 3],
-    commands: &mut [[f64; N]; MAX_AXES],
-) {
-    if !has_avx512() {
-        return groups::place_by::<4, N, Plain<4>>(form, tips, commands);
-    }
-    // SAFETY: the processor has AVX2, FMA and AVX-512F; asked three lines above.
-    unsafe { place_with_avx512(form, tips, commands) }
-}
-
-#[target_feature(enable = "avx2,fma")]
-fn place_with_avx2<const N: usize>(
-    form: &ClosedForm,
-    tips: &[[f64; N]; 3],
-    commands: &mut [[f64; N]; MAX_AXES],
-) {
-    groups::place_by::<4, N, FourPoses>(form, tips, commands);
-}
-
-#[target_feature(enable = "avx2,fma,avx512f")]
-fn place_with_avx512<const N: usize>(
-    form: &ClosedForm,
-    tips: &[[f64; N]; 3],
-    commands: &mut [[f64; N]; MAX_AXES],
-) {
-    groups::place_by::<8, N, EightPoses>(form, tips, commands);
 }
 
 /// Deviations of drawn machines and which of them are undecided; for a processor with AVX2, else all are.

@@ -16,20 +16,23 @@
 
 mod followed;
 mod follower;
+mod reached;
 mod step;
 mod undecided;
 
 pub use followed::FollowedPath;
 pub use follower::Follower;
+pub use reached::Reached;
 
 use super::turns::{TIE_RAD, nearest, others};
-use super::{Placer, SolveError, Solver, Target, with};
+use super::{Aim, ClosedForm, Placer, SolveError, Solver, Target, with};
 use crate::Machine;
 use crate::axis::{AxisKind, Command, Travel};
 use crate::errors::BodyName;
 use follower::Pole;
+use reached::TwoBranches;
 use std::f64::consts::{PI, TAU};
-use step::Steps;
+use step::{FirstAxis, Steps};
 use trueaxis_geometry::Vec3;
 
 /// The branches of so many targets are found at a time.
@@ -135,46 +138,6 @@ impl Label {
     }
 }
 
-/// Targets with the ways to reach each of them: what is the same wherever the tool comes from, and so
-/// may be found for many targets at once.
-#[derive(Debug, Clone, Default)]
-pub struct Reached {
-    targets: Vec<Target>,
-    held: Vec<Option<usize>>,
-    /// Where the branches of a target end.
-    branch_ends: Vec<usize>,
-    branches: Vec<Command>,
-    /// Where the states of a target end; it has none here where an angle is free.
-    state_ends: Vec<usize>,
-    states: Vec<State>,
-    fault: Option<SolveError>,
-    room: Vec<Command>,
-}
-
-impl Reached {
-    fn clear(&mut self) {
-        self.targets.clear();
-        self.held.clear();
-        self.branch_ends.clear();
-        self.branches.clear();
-        self.state_ends.clear();
-        self.states.clear();
-        self.fault = None;
-    }
-
-    fn part<'l, T>(list: &'l [T], ends: &[usize], i: usize) -> &'l [T] {
-        &list[i.checked_sub(1).map_or(0, |before| ends[before])..ends[i]]
-    }
-
-    fn branches(&self, i: usize) -> &[Command] {
-        Self::part(&self.branches, &self.branch_ends, i)
-    }
-
-    fn states(&self, i: usize) -> &[State] {
-        Self::part(&self.states, &self.state_ends, i)
-    }
-}
-
 /// The commands as far as a continuous motion leads, and the jump that it ends at.
 pub(super) fn follow(
     machine: &Machine,
@@ -202,6 +165,12 @@ pub struct FollowSolver<'m> {
     solver: Solver<'m>,
     /// The rotary axes in chain order.
     rotary: Vec<usize>,
+    /// Those with a travel.
+    limited: Vec<usize>,
+    /// Where the machine has closed forms.
+    both: Option<TwoBranches>,
+    /// Where two axes aim.
+    first: Option<FirstAxis>,
 }
 
 impl<'m> FollowSolver<'m> {
@@ -209,33 +178,11 @@ impl<'m> FollowSolver<'m> {
         let at_first = |e: SolveError| FollowError { index: 0, fault: e.into() };
         let mut solver = Solver::new(machine, from).map_err(at_first)?;
         solver.placer = Placer::of(machine, &solver.serial);
-        Ok(Self { solver, rotary: machine.rotary_axes().collect() })
-    }
-
-    /// Finds the ways to reach these targets, in place of what `reached` holds, up to the first that
-    /// cannot be reached.
-    pub fn reach(&self, targets: impl IntoIterator<Item = Target>, reached: &mut Reached) {
-        reached.clear();
-        let mut commands = std::mem::take(&mut reached.room);
-        for target in targets {
-            match self.solver.branches_into(&target, &mut commands) {
-                Err(fault) => {
-                    reached.fault = Some(fault);
-                    break;
-                }
-                Ok(held) => {
-                    if self.offered(held).is_none() {
-                        self.push_states(&commands, held, &mut reached.states);
-                    }
-                    reached.targets.push(target);
-                    reached.held.push(held);
-                    reached.branches.extend_from_slice(&commands);
-                    reached.branch_ends.push(reached.branches.len());
-                    reached.state_ends.push(reached.states.len());
-                }
-            }
-        }
-        reached.room = commands;
+        let both = TwoBranches::of(machine, &solver);
+        let first = FirstAxis::of_aim(&solver.aim);
+        let is_limited = |&axis: &usize| matches!(machine.axes[axis].travel, Travel::Between(..));
+        let limited = machine.rotary_axes().filter(is_limited).collect();
+        Ok(Self { solver, rotary: machine.rotary_axes().collect(), limited, both, first })
     }
 
     /// The axis positions at a point that is decided, whose target this is.

@@ -11,6 +11,9 @@ pub(super) const TIE_RAD: f64 = 1e-9;
 /// Closer than this to −180° is 180°, in rad.
 const SEAM_RAD: f64 = 1e-13;
 
+/// More than any tolerance of a travel, in rad.
+const ROOM_RAD: f64 = 1e-6;
+
 /// The same angle in (−π, π]; what rounding leaves beside −π is π, −0 is 0.
 #[inline]
 pub(crate) fn principal(q: f64) -> f64 {
@@ -125,6 +128,10 @@ pub(crate) fn others(travel: Travel, q: f64, from: f64) -> impl Iterator<Item = 
         Travel::Unlimited => {
             let turns = ((nearest(q, from) - q) / TAU).round() as i64;
             (turns, turns)
+        }
+        // Most axes have no room for another turn.
+        Travel::Between(low, high) if q - TAU < low - ROOM_RAD && high + ROOM_RAD < q + TAU => {
+            (0, 0)
         }
         Travel::Between(low, high) => {
             let first = ((low - q) / TAU - TIE_RAD).ceil();

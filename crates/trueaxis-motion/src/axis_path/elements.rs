@@ -117,16 +117,7 @@ impl Sampler<'_, '_> {
             return self.cell([middle, u1], &there, halvings + 1);
         }
         let length = self.length * (u1 - u0);
-        let [slope, bend, twist] = derivatives(&points, 0.25 * length);
-        let part = Part {
-            length,
-            steady: [0.0; MAX_AXES],
-            slope: largest(&slope),
-            bend: largest(&bend),
-            twist: largest(&twist),
-            circular: false,
-        };
-        let ends = [0, 4].map(|k| Tangent { slope: slope[k], bend: bend[k] });
+        let (part, ends) = part(&points, length);
         if self.parts.is_empty() {
             self.ends[0] = ends[0];
         }
@@ -138,17 +129,6 @@ impl Sampler<'_, '_> {
 
 /// Between two of five points a derivative may be a little larger than at them.
 const BETWEEN: f64 = 1.02;
-
-/// Somewhat more than the largest magnitude of each axis at five points.
-fn largest(values: &[Command; 5]) -> Command {
-    let mut most = [0.0_f64; MAX_AXES];
-    for row in values {
-        for (most, value) in most.iter_mut().zip(row) {
-            *most = most.max(value.abs());
-        }
-    }
-    most.map(|most| most * BETWEEN)
-}
 
 // What follows goes through the axes in its innermost loops: they are computed side by side.
 
@@ -167,49 +147,87 @@ fn is_coarse(points: &[Command; 5]) -> bool {
     is_coarse
 }
 
-/// First three derivatives of the polynomial of fourth degree through five points at a distance h.
-fn derivatives(points: &[Command; 5], h: f64) -> [[Command; 5]; 3] {
+/// The part of the curve through five points, and the tangents at its ends.
+fn part(points: &[Command; 5], length: f64) -> (Part, [Tangent; 2]) {
+    let h = 0.25 * length;
+    let [slope, mut bend, mut twist] = derivatives(points);
+    let [one, two, three] = [1.0 / (12.0 * h), 1.0 / (12.0 * h * h), 0.5 / (h * h * h)];
+    without_rounding(&mut twist, 0.5, &points[0]);
+    without_rounding(&mut bend, 1.0 / 12.0, &points[0]);
+    let part = Part {
+        length,
+        steady: [0.0; MAX_AXES],
+        slope: slope.most.map(|x| x * one * BETWEEN),
+        bend: bend.most.map(|x| x * two * BETWEEN),
+        twist: twist.most.map(|x| x * three * BETWEEN),
+        circular: false,
+    };
+    let tangent = |k: usize| Tangent {
+        slope: slope.ends[k].map(|x| x * one),
+        bend: bend.ends[k].map(|x| x * two),
+    };
+    (part, [tangent(0), tangent(1)])
+}
+
+/// A derivative at five points, but for a factor.
+struct Derivative {
+    /// At the first point and at the last.
+    ends: [Command; 2],
+    /// The largest magnitude of each axis at all of them.
+    most: Command,
+}
+
+/// First three derivatives of the polynomial of fourth degree through five points at a distance h: 12 h, 12 h² and 2 h³
+/// times them.
+fn derivatives(points: &[Command; 5]) -> [Derivative; 3] {
     let [p, q, r, s, t] = points;
-    let row = |[a, b, c, d, e]: [f64; 5], scale: f64| {
+    let row = |[a, b, c, d, e]: [f64; 5]| {
         let mut row = Command::default();
         for i in 0..MAX_AXES {
-            row[i] = (a * p[i] + b * q[i] + c * r[i] + d * s[i] + e * t[i]) / scale;
+            row[i] = a * p[i] + b * q[i] + c * r[i] + d * s[i] + e * t[i];
         }
         row
     };
-    let (one, two, three) = (12.0 * h, 12.0 * h * h, 2.0 * h * h * h);
-    let slope = [
-        row([-25.0, 48.0, -36.0, 16.0, -3.0], one),
-        row([-3.0, -10.0, 18.0, -6.0, 1.0], one),
-        row([1.0, -8.0, 0.0, 8.0, -1.0], one),
-        row([-1.0, 6.0, -18.0, 10.0, 3.0], one),
-        row([3.0, -16.0, 36.0, -48.0, 25.0], one),
-    ];
-    let mut bend = [
-        row([35.0, -104.0, 114.0, -56.0, 11.0], two),
-        row([11.0, -20.0, 6.0, 4.0, -1.0], two),
-        row([-1.0, 16.0, -30.0, 16.0, -1.0], two),
-        row([-1.0, 4.0, 6.0, -20.0, 11.0], two),
-        row([11.0, -56.0, 114.0, -104.0, 35.0], two),
-    ];
-    let mut twist = [
-        row([-5.0, 18.0, -24.0, 14.0, -3.0], three),
-        row([-3.0, 10.0, -12.0, 6.0, -1.0], three),
-        row([-1.0, 2.0, 0.0, -2.0, 1.0], three),
-        row([1.0, -6.0, 12.0, -10.0, 3.0], three),
-        row([3.0, -14.0, 24.0, -18.0, 5.0], three),
-    ];
-    without_rounding(&mut twist, |twist| twist * h * h * h, p);
-    without_rounding(&mut bend, |bend| bend * h * h, p);
-    [slope, bend, twist]
+    let derivative = |rows: [Command; 5]| {
+        let mut most = Command::default();
+        for row in &rows {
+            for i in 0..MAX_AXES {
+                most[i] = most[i].max(row[i].abs());
+            }
+        }
+        Derivative { ends: [rows[0], rows[4]], most }
+    };
+    [
+        derivative([
+            row([-25.0, 48.0, -36.0, 16.0, -3.0]),
+            row([-3.0, -10.0, 18.0, -6.0, 1.0]),
+            row([1.0, -8.0, 0.0, 8.0, -1.0]),
+            row([-1.0, 6.0, -18.0, 10.0, 3.0]),
+            row([3.0, -16.0, 36.0, -48.0, 25.0]),
+        ]),
+        derivative([
+            row([35.0, -104.0, 114.0, -56.0, 11.0]),
+            row([11.0, -20.0, 6.0, 4.0, -1.0]),
+            row([-1.0, 16.0, -30.0, 16.0, -1.0]),
+            row([-1.0, 4.0, 6.0, -20.0, 11.0]),
+            row([11.0, -56.0, 114.0, -104.0, 35.0]),
+        ]),
+        derivative([
+            row([-5.0, 18.0, -24.0, 14.0, -3.0]),
+            row([-3.0, 10.0, -12.0, 6.0, -1.0]),
+            row([-1.0, 2.0, 0.0, -2.0, 1.0]),
+            row([1.0, -6.0, 12.0, -10.0, 3.0]),
+            row([3.0, -14.0, 24.0, -18.0, 5.0]),
+        ]),
+    ]
 }
 
-/// Derivatives of an axis that are rounding of its positions at all points are none.
-fn without_rounding(rows: &mut [Command; 5], difference: impl Fn(f64) -> f64, at: &Command) {
+/// Derivatives of an axis that are rounding of its positions at all points are none; `scale` makes differences of them.
+fn without_rounding(derivative: &mut Derivative, scale: f64, at: &Command) {
     for i in 0..MAX_AXES {
-        let rounding = ROUNDING * (1.0 + at[i].abs());
-        if rows.iter().all(|row| difference(row[i]).abs() < rounding) {
-            rows.iter_mut().for_each(|row| row[i] = 0.0);
+        if derivative.most[i] * scale < ROUNDING * (1.0 + at[i].abs()) {
+            derivative.most[i] = 0.0;
+            derivative.ends.iter_mut().for_each(|end| end[i] = 0.0);
         }
     }
 }
@@ -218,16 +236,27 @@ fn without_rounding(rows: &mut [Command; 5], difference: impl Fn(f64) -> f64, at
 mod tests {
     use super::*;
 
-    /// x⁴ at 0, 1, 2, 3, 4: 4x³, 12x², 24x.
+    /// x⁴ at −2, −1, 0, 1, 2: 4x³, 12x², 24x.
     #[test]
     fn derivatives_of_a_fourth_power() {
-        let points = [0.0_f64, 1.0, 2.0, 3.0, 4.0].map(|x| [0.0, x.powi(4), 0.0, 0.0, 0.0, 0.0]);
-        let [slope, bend, twist] = derivatives(&points, 1.0);
-        for (k, x) in [0.0_f64, 1.0, 2.0, 3.0, 4.0].into_iter().enumerate() {
-            assert!((slope[k][1] - 4.0 * x.powi(3)).abs() < 1e-9 && slope[k][0] == 0.0);
-            assert!((bend[k][1] - 12.0 * x * x).abs() < 1e-9);
-            assert!((twist[k][1] - 24.0 * x).abs() < 1e-9);
-        }
+        let points = [-2.0_f64, -1.0, 0.0, 1.0, 2.0].map(|x| [0.0, x.powi(4), x, 0.0, 0.0, 0.0]);
+        let (part, [begin, end]) = part(&points, 4.0);
+        let most = [part.slope, part.bend, part.twist].map(|row| row.map(|x| x / BETWEEN));
+        assert_eq!((begin.slope[1], end.slope[1]), (-32.0, 32.0));
+        assert_eq!((begin.bend[1], end.bend[1]), (48.0, 48.0));
+        assert!((most[0][1] - 32.0).abs() < 1e-12 && (most[1][1] - 48.0).abs() < 1e-12);
+        assert!((most[2][1] - 48.0).abs() < 1e-12);
+        assert_eq!((begin.slope[2], begin.bend[2], most[2][2]), (1.0, 0.0, 0.0));
+        // x³ − 4x: 3x² − 4, 6x, 6.
+        let cubic = [-2.0_f64, -1.0, 0.0, 1.0, 2.0].map(|x| {
+            let mut command = Command::default();
+            command[3] = x * (x * x - 4.0);
+            command
+        });
+        let (part, [begin, end]) = super::part(&cubic, 4.0);
+        assert!((part.slope[3] / BETWEEN - 8.0).abs() < 1e-12 && begin.slope[3] == 8.0);
+        assert!((part.bend[3] / BETWEEN - 12.0).abs() < 1e-12 && end.bend[3] == 12.0);
+        assert!((part.twist[3] / BETWEEN - 6.0).abs() < 1e-12);
     }
 
     /// A quarter of a circle of radius 10: |q″| ≤ 1/10, |q‴| ≤ 1/100, and as fine whoever asks.

@@ -15,6 +15,9 @@ const LIST: &str = ".trueaxis-written";
 /// A longer list is not ours.
 const MAX_BYTES: u64 = 1 << 24;
 
+/// A checksum of more bytes is computed while they are written.
+const LARGE_BYTES: usize = 1 << 20;
+
 /// Whether this program wrote what stands there, and it has not changed since.
 pub(super) fn is_ours(path: &Path) -> bool {
     let Some((list, name)) = place(path).filter(|(list, _)| is_usable(list)) else { return false };
@@ -26,12 +29,29 @@ pub(super) fn is_ours(path: &Path) -> bool {
 /// Notes that this program wrote what stands there. Where that is not possible (the list belongs to another
 /// user of the folder, a name does not fit into a line) the file counts as that of a person, and stays.
 pub(super) fn note(path: &Path) {
-    let _ = try_note(path);
+    let _ = checksum(path).and_then(|sum| note_sum(path, sum));
 }
 
-fn try_note(path: &Path) -> io::Result<()> {
+/// Writes a content with `write`, and notes it as [`note()`] does: its checksum is computed meanwhile.
+pub(super) fn write_and_note(
+    path: &Path,
+    content: &[u8],
+    write: impl FnOnce() -> io::Result<()>,
+) -> io::Result<()> {
+    let (written, sum) = std::thread::scope(|scope| {
+        let large = (content.len() > LARGE_BYTES)
+            .then(|| std::thread::Builder::new().spawn_scoped(scope, || checksum_of(content)));
+        let written = write();
+        let sum = large.and_then(Result::ok).and_then(|thread| thread.join().ok());
+        (written, sum)
+    });
+    written?;
+    let _ = note_sum(path, sum.unwrap_or_else(|| checksum_of(content)));
+    Ok(())
+}
+
+fn note_sum(path: &Path, sum: String) -> io::Result<()> {
     let Some((list, name)) = place(path).filter(|(list, _)| is_usable(list)) else { return Ok(()) };
-    let sum = checksum(path)?;
     let mut file =
         OpenOptions::new().read(true).write(true).create(true).truncate(false).open(list)?;
     // Several runs may write into one folder. Where the disk has no locks, the last one wins: files without a
@@ -78,7 +98,17 @@ fn checksum(path: &Path) -> io::Result<String> {
             n => sum.update(&piece[..n]),
         }
     }
-    Ok(sum.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+    Ok(hexadecimal(sum))
+}
+
+fn checksum_of(content: &[u8]) -> String {
+    let mut sum = Sha256::new();
+    sum.update(content);
+    hexadecimal(sum)
+}
+
+fn hexadecimal(sum: Sha256) -> String {
+    sum.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 #[cfg(test)]
@@ -102,6 +132,21 @@ mod tests {
         let sum = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
         let list = fs::read_to_string(folder.join(LIST)).unwrap();
         assert_eq!(list, format!("{sum}  a b.txt\n"));
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn a_checksum_taken_while_writing_is_that_of_the_file() {
+        let folder = folder("meanwhile");
+        for bytes in [0, 10, LARGE_BYTES, LARGE_BYTES + 1, 3 * LARGE_BYTES] {
+            let (file, content) = (folder.join(format!("{bytes}")), vec![b'x'; bytes]);
+            write_and_note(&file, &content, || fs::write(&file, &content)).unwrap();
+            assert!(is_ours(&file), "{bytes}");
+        }
+        let refused = folder.join("refused");
+        let full = || Err(io::Error::from(io::ErrorKind::StorageFull));
+        assert!(write_and_note(&refused, &vec![0; 2 * LARGE_BYTES], full).is_err());
+        assert!(!fs::read_to_string(folder.join(LIST)).unwrap().contains("refused"));
         fs::remove_dir_all(folder).unwrap();
     }
 

@@ -2,8 +2,23 @@
 
 use super::{FollowSolver, Label, Stage, TIE_RAD};
 use crate::axis::Command;
-use std::f64::consts::FRAC_PI_2;
+use crate::inverse::DirectionSolver;
+use std::f64::consts::{FRAC_PI_2, PI};
 use trueaxis_geometry::Vec3;
+
+/// The first of two rotary axes that aim, and its direction in the workpiece frame.
+pub(super) struct FirstAxis {
+    axis: usize,
+    direction: Vec3,
+}
+
+impl FirstAxis {
+    /// `None` unless two axes aim.
+    pub fn of_aim(aim: &DirectionSolver) -> Option<Self> {
+        let ([first, _], Some(pair)) = (&aim.turning[..], &aim.pair) else { return None };
+        Some(Self { axis: first.axis, direction: pair.a })
+    }
+}
 
 /// One step from state to state.
 #[derive(Clone, Copy)]
@@ -15,6 +30,8 @@ pub(super) struct Step {
     pub cost: f64,
     /// The axis that turns most.
     pub most: usize,
+    /// The turns of all axes, without their signs.
+    total: f64,
 }
 
 impl Step {
@@ -34,6 +51,8 @@ pub(super) struct Steps<'s> {
     apart: f64,
     /// How far apart the tool axes are, and a tie more.
     allowed: f64,
+    /// How far the tool axis is from the first rotary axis to begin with: the sine of the angle.
+    radius: f64,
 }
 
 fn apart(a: Vec3, b: Vec3) -> f64 {
@@ -44,7 +63,9 @@ impl<'s> Steps<'s> {
     pub fn between(way: &'s FollowSolver<'s>, from: &Stage, to: &Stage) -> Self {
         let apart = apart(from.axis, to.axis);
         let (held, ends) = ([from.held, to.held], [from.axis, to.axis]);
-        Self { way, held, ends, apart, allowed: apart + TIE_RAD }
+        let radius =
+            way.first.as_ref().map_or(0.0, |first| first.direction.cross(&from.axis).norm());
+        Self { way, held, ends, apart, allowed: apart + TIE_RAD, radius }
     }
 
     /// √(Δq1² + Δq2²); where one end is a pole the turn of its idle axis counts twice, so that it
@@ -65,7 +86,8 @@ impl<'s> Steps<'s> {
         let others = (squares - idle * idle).max(0.0).sqrt();
         let cost = if idle > 0.0 { others + 2.0 * idle } else { squares.sqrt() };
         let first = self.way.rotary.first().map_or(0.0, |&i| turns[i].abs());
-        Step { turns, first, cost, most }
+        let total = turns.iter().map(|turn| turn.abs()).sum();
+        Step { turns, first, cost, most, total }
     }
 
     /// The way to a state from the one of the same number, if it is continuous at a glance and better than all
@@ -73,15 +95,17 @@ impl<'s> Steps<'s> {
     pub fn sure(&self, point: &Stage, state: usize, after: &Command) -> Option<Label> {
         let label = point.labels.get(state).filter(|label| label.is_reached())?;
         let step = self.to(&point.states[state].command, after);
-        if !self.is_continuous_at_a_glance(total(&step)) {
+        if !self.is_continuous_at_a_glance(step.total) {
             return None;
         }
         let candidate = step.after(label, state);
         let is_better = |at: usize| {
             let (label, before) = (&point.labels[at], &point.states[at].command);
-            !label.is_reached()
-                || self.is_dearer(label, before, after, &candidate)
-                || candidate.beats(&self.to(before, after).after(label, at))
+            if !label.is_reached() || self.is_dearer(label, before, after, &candidate) {
+                return true;
+            }
+            let step = self.to(before, after);
+            candidate.beats(&step.after(label, at)) || !self.is_continuous(before, &step)
         };
         (0..state).all(is_better).then_some(candidate)
     }
@@ -95,8 +119,8 @@ impl<'s> Steps<'s> {
         than: &Label,
     ) -> bool {
         let room = than.cost + 2.0 * TIE_RAD - label.cost;
-        let limited = self.way.rotary.iter().filter(|&&axis| !self.way.is_endless(axis));
-        limited.into_iter().any(|&axis| (after[axis] - before[axis]).abs() * (1.0 - 1e-12) > room)
+        let is_dear = |&axis: &usize| (after[axis] - before[axis]).abs() * (1.0 - 1e-12) > room;
+        self.way.limited.iter().any(is_dear)
     }
 
     /// Sufficient for [`Self::is_continuous`].
@@ -117,25 +141,43 @@ impl<'s> Steps<'s> {
             between[axis] += step.turns[axis] * part;
         }
         let (_, tool) = placer.tip_and_axis(&between);
-        let clearly = (self.allowed * (1.0 + 1e-9) + 1e-9).powi(2);
+        let clearly = self.clearly().powi(2);
         self.ends.iter().any(|end| (tool - end).norm_squared() > clearly)
+    }
+
+    fn clearly(&self) -> f64 {
+        self.allowed * (1.0 + 1e-9) + 1e-9
+    }
+
+    /// Sufficient for [`Self::swings_away`], without a sine.
+    ///
+    /// A turn of the first axis by δ moves the tool axis, which is ϱ away from that axis, along a chord of 2ϱ sin(δ/2); no
+    /// turn of another axis moves it farther than its angle. For 0 ≤ y ≤ π the sine of y is not less than y (π − y)/π.
+    fn swings_away_at_a_glance(&self, step: &Step, part: f64) -> bool {
+        let Some(first) = &self.way.first else { return false };
+        let half = 0.5 * step.turns[first.axis].abs() * part;
+        let others = part * (step.total - step.turns[first.axis].abs());
+        half <= PI && 2.0 * self.radius * half * (PI - half) / PI - others > self.clearly()
     }
 
     /// Whether the tool axis stays between its ends on a step: on the way it is never farther from
     /// either end than they are from each other. Checked halfway, and at every 90° of turning.
     pub fn is_continuous(&self, before: &Command, step: &Step) -> bool {
-        let total = total(step);
-        let part = (0.5 * parts(total)).floor() / parts(total);
-        self.is_continuous_at_a_glance(total)
-            || !self.swings_away(before, step, part)
-                && self.stays_between(before, step, parts(total))
+        if self.is_continuous_at_a_glance(step.total) {
+            return true;
+        }
+        let parts = parts(step.total);
+        let part = (parts / 2) as f64 / parts as f64;
+        !self.swings_away_at_a_glance(step, part)
+            && !self.swings_away(before, step, part)
+            && self.stays_between(before, step, parts)
     }
 
-    fn stays_between(&self, before: &Command, step: &Step, parts: f64) -> bool {
-        (1..).map(f64::from).take_while(|part| *part < parts).all(|part| {
+    fn stays_between(&self, before: &Command, step: &Step, parts: u64) -> bool {
+        (1..parts).all(|part| {
             let mut between = *before;
             for (q, turn) in between.iter_mut().zip(&step.turns) {
-                *q += turn * part / parts;
+                *q += turn * part as f64 / parts as f64;
             }
             let tool = self.way.solver.serial.tool_axis(&between);
             self.ends.iter().all(|end| apart(tool, *end) <= self.allowed)
@@ -143,12 +185,16 @@ impl<'s> Steps<'s> {
     }
 }
 
-fn parts(total: f64) -> f64 {
-    (total / FRAC_PI_2).ceil().max(2.0)
-}
-
-fn total(step: &Step) -> f64 {
-    step.turns.iter().map(|turn| turn.abs()).sum()
+/// ⌈total/90°⌉, at least 2: a turn is examined in so many parts.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "no travel has 2^63 turns"
+)]
+fn parts(total: f64) -> u64 {
+    let quarters = total / FRAC_PI_2;
+    let whole = quarters as u64;
+    (whole + u64::from(whole as f64 != quarters)).max(2)
 }
 
 #[cfg(test)]
@@ -189,13 +235,20 @@ mod tests {
             let mut step = steps.to(&before, &after);
             // Endless axes would take the shorter way round.
             (step.turns[first], step.turns[second]) = (to[0] - c, to[1] - tilt);
-            let total = total(&step);
-            let stays = steps.stays_between(&before, &step, parts(total));
+            step.total = step.turns.iter().map(|turn| turn.abs()).sum();
+            let (total, parts) = (step.total, parts(step.total));
+            prop_assert_eq!(parts as f64, (total / FRAC_PI_2).ceil().max(2.0));
+            let stays = steps.stays_between(&before, &step, parts);
             if steps.is_continuous_at_a_glance(total) && 0.5 * total > steps.allowed {
                 prop_assert!(stays);
             }
-            if steps.swings_away(&before, &step, (0.5 * parts(total)).floor() / parts(total)) {
+            let part = (parts / 2) as f64 / parts as f64;
+            let swings = steps.swings_away(&before, &step, part);
+            if swings {
                 prop_assert!(!stays);
+            }
+            if steps.swings_away_at_a_glance(&step, part) {
+                prop_assert!(swings);
             }
         }
     }
