@@ -26,6 +26,7 @@ use super::densify::MOST_PIECES;
 use super::setup::SetUp;
 use super::timing::Element;
 use fault::{fault, no_farther_than_a_hall, too_many_pieces};
+use std::sync::Arc;
 use trueaxis_geometry::frame::{Direction, Workpiece, inverse3};
 use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::Machine;
@@ -100,8 +101,8 @@ pub struct AxisPath<'m> {
     turn_back: Mat3,
     /// Without tools in the set-up the control counts with the tool of the machine file.
     lengths_known: bool,
-    /// In a box: a move of the tip takes it out and puts it back.
-    control: Option<Box<TipControl>>,
+    /// A move of the tip takes it out and puts it back.
+    control: Option<Arc<TipControl>>,
     frame: Frame,
     tool: Vec3,
     tcp: bool,
@@ -147,7 +148,7 @@ impl<'m> AxisPath<'m> {
             shift,
             turn_back: inverse3(&turn),
             lengths_known: !setup.tools.is_empty(),
-            control: TipControl::of(machine).map(Box::new),
+            control: TipControl::of(machine).map(Arc::new),
             frame: Frame::IDENTITY,
             tool: Vec3::zeros(),
             tcp: false,
@@ -262,7 +263,7 @@ impl<'m> AxisPath<'m> {
     fn fit_tip(&mut self) {
         if self.lengths_known {
             let tipped = self.machine.clone().with_tip(-self.tool);
-            self.control = TipControl::of(&tipped).map(Box::new);
+            self.control = TipControl::of(&tipped).map(Arc::new);
         }
     }
 

@@ -21,6 +21,7 @@ mod length;
 mod line_table;
 mod lines;
 mod number;
+mod options;
 mod radius;
 mod ready;
 mod refuse;
@@ -36,10 +37,13 @@ pub use correct::CorrectionLimit;
 pub use found::{Found, LargestCorrection};
 pub use guard::{Confidence, Convention, MARK, Wrong, is_compensated};
 pub use number::Increments;
+pub use options::ProgramOptions;
 pub use verify::{BlockResidual, Largest, Proof, Residual};
 
 use ahead::{Gather, Stretches};
 use line_table::LineTable;
+use options::{residual_of_pieces, residual_share};
+use ready::Preparer;
 use std::ops::Range;
 use std::sync::Mutex;
 use trueaxis_input::{Diagnostic, Diagnostics, Place};
@@ -52,76 +56,6 @@ use trueaxis_motion::execute_on;
 use trueaxis_motion::place;
 use trueaxis_nc::{Follower, Outcome, Program, Settings};
 use walk::Walk;
-
-/// What is wanted of the compensated program.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ProgramOptions {
-    /// The program is unrolled first: loops, subprograms, repeated parts and computed numbers.
-    pub flat: bool,
-    /// The tip alone, with the linear axes.
-    pub position_only: bool,
-    /// How far the tip may be missed between the ends of blocks, mm.
-    pub residual_mm: f64,
-    /// How far the tool axis may be missed there, rad.
-    pub residual_rad: f64,
-    /// Whether that was asked for by name: then it also holds where the machine cannot turn the tool.
-    pub residual_axis_asked: bool,
-    /// Numbers are rounded to them; `None`: full double precision.
-    pub increments: Option<Increments>,
-    /// Larger corrections are refused.
-    pub limit: CorrectionLimit,
-    /// Every pose by [`trueaxis_machine::compensate::Compensator::at`] instead of whole stretches by
-    /// the batch compensator: the reference, some ten times slower.
-    pub pose_by_pose: bool,
-    /// What stands in the heading: machine, its file, version.
-    pub mark: String,
-}
-
-impl Default for ProgramOptions {
-    fn default() -> Self {
-        Self {
-            flat: false,
-            position_only: false,
-            residual_mm: 1e-3,
-            residual_rad: 1e-5,
-            residual_axis_asked: false,
-            increments: Some(Increments::default()),
-            limit: CorrectionLimit::default(),
-            pose_by_pose: false,
-            mark: String::new(),
-        }
-    }
-}
-
-/// Circles may leave this share of the residual: rounding adds to it.
-const SHARE: f64 = 0.5;
-
-impl ProgramOptions {
-    /// What may be missed between the ends of blocks, tip in mm and tool axis in rad: the residual and what rounding adds.
-    fn limits_between(&self) -> [f64; 2] {
-        let rounding = self.increments.map_or([0.0; 2], |i| [i.linear_mm, i.rotary_deg]);
-        [self.residual_mm + rounding[0], self.residual_rad + 2.0 * rounding[1].to_radians()]
-    }
-}
-
-fn residual_share(options: &ProgramOptions) -> [f64; 2] {
-    [SHARE * options.residual_mm, SHARE * options.residual_rad]
-}
-
-/// What straight pieces may leave: the residual less what rounding the ends adds at most, but never
-/// less than half of it.
-///
-/// Three linear axes are rounded by half an increment each, two rotary axes too.
-fn residual_of_pieces(options: &ProgramOptions) -> [f64; 2] {
-    let rounding = options.increments.map_or([0.0; 2], |i| {
-        [0.5 * 3_f64.sqrt() * i.linear_mm, 0.5 * 2_f64.sqrt() * i.rotary_deg.to_radians()]
-    });
-    let share = residual_share(options);
-    [
-        (options.residual_mm - rounding[0]).max(share[0]),
-        (options.residual_rad - rounding[1]).max(share[1]),
-    ]
-}
 
 /// Places of a circle on one piece of the length that its sagitta allows: n places between two ends
 /// are 1/n² of that sagitta off their own chords.
@@ -425,7 +359,8 @@ fn once(
         let walk = if attempt < ARCS { walk } else { walk.without_arcs() };
         let nominal = AxisPath::new(&mounted, setup, densify(options, attempt, least), 0.01);
         let settings = Settings { report_blocks, ..setup.settings(false) };
-        let gather = Gather::along(nominal, &table, progress);
+        let preparer = Preparer::of(&mounted, setup, options);
+        let gather = Gather::along((nominal, preparer), &table, progress);
         Ok(both(gather, walk, |ahead| execute_on(&mounted, program, setup, &settings, ahead)))
     };
     let reported = computed::may_compute(program);

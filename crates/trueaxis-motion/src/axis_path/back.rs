@@ -1,6 +1,7 @@
 //! From axis positions back to the words that lead to them, in the present state of the program.
 
 use super::AxisPath;
+use std::sync::Arc;
 use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::axis::{Command, Travel};
 use trueaxis_machine::tcp::TipControl;
@@ -41,6 +42,11 @@ impl AxisPath<'_> {
     /// The nominal machine with the tool length of the control.
     pub fn control(&self) -> Option<&TipControl> {
         self.control.as_deref()
+    }
+
+    /// The same for another thread: it stays as it is when the control counts with another tool.
+    pub fn shared_control(&self) -> Option<Arc<TipControl>> {
+        self.control.clone()
     }
 
     /// The machine's axis of a word.

@@ -7,6 +7,7 @@
 
 use super::Progress;
 use super::line_table::LineTable;
+use super::ready::{Preparer, Ready};
 use super::words::Words;
 use std::ops::Range;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
@@ -18,7 +19,7 @@ use trueaxis_nc::moves::{AxisSet, Event, Move, MoveKind, Step};
 use trueaxis_nc::{Follower, KnownPosition};
 
 /// Places of a stretch: enough that a batch pays, few enough to stay in the cache.
-const NODES: usize = 4096;
+const NODES: usize = 1024;
 
 /// Steps of a stretch that lead nowhere are not gathered for ever.
 const STEPS: usize = 4096;
@@ -26,7 +27,7 @@ const STEPS: usize = 4096;
 /// The part of the work that is done when all lines are written; the proof is the rest.
 const WRITING: f64 = 0.75;
 
-/// Stretches that wait: each some 6 MB with the words of its lines.
+/// Stretches that wait: each some 2 MB with the words of its lines.
 const WAITING: usize = 2;
 
 /// Some steps of the program that follow each other, with one tool.
@@ -36,6 +37,8 @@ pub(super) struct Stretch {
     /// Of all steps.
     pub nodes: Vec<Node>,
     pub words: Vec<Words>,
+    /// What was found for the nodes.
+    pub ready: Ready,
 }
 
 /// A step of the program, and where the axes go by it as it is.
@@ -84,6 +87,7 @@ fn lead_to_cut(steps: &mut [Ahead]) {
 /// allocates another would free, and wait for it.
 pub(super) struct Gather<'m> {
     nominal: AxisPath<'m>,
+    preparer: Preparer<'m>,
     table: &'m LineTable<'m>,
     stretch: Stretch,
     tokens: Vec<Token>,
@@ -107,7 +111,7 @@ pub(super) struct Stretches {
 impl<'m> Gather<'m> {
     /// With the end at which the stretches come out.
     pub fn along(
-        nominal: AxisPath<'m>,
+        (nominal, mut preparer): (AxisPath<'m>, Preparer<'m>),
         table: &'m LineTable<'m>,
         progress: Progress<'m>,
     ) -> (Self, Stretches) {
@@ -115,7 +119,9 @@ impl<'m> Gather<'m> {
         let (written, back) = sync_channel(WAITING + 2);
         let (stretch, tokens, to) = (Stretch::default(), Vec::new(), Some(to));
         let (points, line) = (0, 0);
-        let gather = Self { nominal, table, stretch, tokens, to, back, points, progress, line };
+        preparer.count_by(0, nominal.shared_control());
+        let gather =
+            Self { nominal, preparer, table, stretch, tokens, to, back, points, progress, line };
         (gather, Stretches { next, written })
     }
 
@@ -137,6 +143,7 @@ impl<'m> Gather<'m> {
 
     fn send(&mut self) {
         (self.progress)(WRITING * f64::from(self.line) / self.table.count() as f64);
+        self.preparer.prepare(&mut self.stretch);
         let next = self.empty();
         let stretch = std::mem::replace(&mut self.stretch, next);
         let heard = self.to.as_ref().is_some_and(|to| to.send(stretch).is_ok());
@@ -164,8 +171,14 @@ impl Follower for Gather<'_> {
                 nodes.push(node);
             }
         });
+        if matches!(step, Step::Event(Event::ToolLength(_), _)) {
+            self.preparer.count_by(nodes.len(), self.nominal.shared_control());
+        }
         let fault = self.nominal.faults.pop();
-        let changes_tool = matches!(step, Step::Event(Event::ToolChange(_), _));
+        let tool = match step {
+            Step::Event(Event::ToolChange(number), _) => Some(number),
+            _ => None,
+        };
         let cuts = matches!(step, Step::Move(m) if is_cut(&m));
         let nodes = from..nodes.len();
         self.points += nodes.len() as u64;
@@ -185,8 +198,11 @@ impl Follower for Gather<'_> {
         let full = self.stretch.nodes.len() >= NODES || self.stretch.steps.len() >= STEPS;
         // Rapids wait for the cut that they lead to.
         let waits = !cuts && self.stretch.steps.len() < 4 * STEPS;
-        if changes_tool || full && !waits {
+        if tool.is_some() || full && !waits {
             self.send();
+        }
+        if let Some(number) = tool {
+            self.preparer.change_tool(number);
         }
     }
 

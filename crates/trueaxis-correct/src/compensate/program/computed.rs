@@ -14,6 +14,7 @@ use super::block::{Block, Put};
 use super::number::{Of, Unit};
 use super::refuse::refusal;
 use super::words::{Word, Words};
+use rayon::prelude::*;
 use std::ops::Range;
 use trueaxis_motion::axis_path::Fault;
 use trueaxis_nc::moves::{Axis, AxisSet, CompensationSide, Event, Move};
@@ -226,10 +227,14 @@ pub(super) fn free_locals(source: &[u8], control: Control) -> Vec<u16> {
     if control != Control::Heidenhain {
         return Vec::new();
     }
-    let text = String::from_utf8_lossy(source).to_ascii_uppercase();
     let mut used = [false; LOCALS as usize];
-    for rest in text.split("QL").skip(1) {
-        let digits: String = rest.chars().take_while(char::is_ascii_digit).collect();
+    let is_local = |at: usize| source.get(at + 1).is_some_and(|b| b.eq_ignore_ascii_case(&b'L'));
+    let is_named = any_at(source, |b| b.eq_ignore_ascii_case(&b'Q'), is_local);
+    let searched = if is_named { source } else { &[] };
+    let named = searched.windows(2).enumerate().filter(|(_, two)| two.eq_ignore_ascii_case(b"QL"));
+    for (at, _) in named {
+        let digits = source[at + 2..].iter().take_while(|b| b.is_ascii_digit());
+        let digits: String = digits.map(|b| char::from(*b)).collect();
         if let Some(used) = digits.parse().ok().and_then(|n: usize| used.get_mut(n)) {
             *used = true;
         }
@@ -237,6 +242,9 @@ pub(super) fn free_locals(source: &[u8], control: Control) -> Vec<u16> {
     let free = (0..LOCALS).rev().filter(|n| !used[usize::from(*n)]);
     free.take(LOCALS_OF_BLOCK).collect()
 }
+
+/// Bytes that one task looks through.
+const SCANNED: usize = 1 << 20;
 
 /// Whether a program may compute a word: blocks are reported for these, which takes time.
 pub(super) fn may_compute(program: &Program) -> bool {
@@ -249,17 +257,32 @@ pub(super) fn may_compute(program: &Program) -> bool {
 fn computes_in(source: &[u8], control: Control) -> bool {
     match control {
         Control::Fanuc | Control::Haas | Control::LinuxCnc => {
-            source.iter().any(|b| matches!(b, b'#' | b'['))
+            let computes = |part: &[u8]| part.iter().any(|b| matches!(b, b'#' | b'['));
+            source.par_chunks(SCANNED).any(computes)
         }
-        Control::Heidenhain => source.windows(2).any(|pair| {
-            let [q, next] = [pair[0], pair[1]].map(|b| b.to_ascii_uppercase());
-            q == b'Q' && (next.is_ascii_digit() || matches!(next, b'L' | b'R'))
-        }),
+        Control::Heidenhain => {
+            let names = |at: usize| {
+                let next = source.get(at + 1).map_or(0, u8::to_ascii_uppercase);
+                next.is_ascii_digit() || matches!(next, b'L' | b'R')
+            };
+            any_at(source, |b| matches!(b, b'Q' | b'q'), names)
+        }
         Control::Sinumerik840d => {
-            let equals = source.iter().enumerate().filter(|(_, b)| **b == b'=');
-            equals.into_iter().any(|(at, _)| !is_plain_number(&source[at + 1..]))
+            any_at(source, |b| b == b'=', |at| !is_plain_number(&source[at + 1..]))
         }
     }
+}
+
+/// Whether there is a place with such a byte of which something holds.
+pub(super) fn any_at(
+    source: &[u8],
+    is_one: impl Fn(u8) -> bool + Sync,
+    holds: impl Fn(usize) -> bool + Sync,
+) -> bool {
+    source.par_chunks(SCANNED).enumerate().any(|(part, bytes)| {
+        let first = part * SCANNED;
+        bytes.iter().enumerate().any(|(i, b)| is_one(*b) && holds(first + i))
+    })
 }
 
 /// Whether a text begins with a number that nothing computes with.
@@ -439,4 +462,41 @@ fn depth(text: &str) -> usize {
         most = most.max(now);
     }
     most
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_computes_is_seen_on_both_sides_of_a_border_of_tasks() {
+        let computing = [
+            (Control::Fanuc, &b"X#1"[..]),
+            (Control::LinuxCnc, b"X[1]"),
+            (Control::Heidenhain, b"LX+q1"),
+            (Control::Heidenhain, b"LX+QL1"),
+            (Control::Sinumerik840d, b"X=R1"),
+        ];
+        for (control, words) in computing {
+            for before in [0, SCANNED - 4, SCANNED - 3, SCANNED - 2, SCANNED - 1, SCANNED] {
+                let mut source = vec![b' '; before];
+                assert!(!computes_in(&source, control));
+                source.extend_from_slice(words);
+                assert!(computes_in(&source, control), "{control:?} {before}");
+            }
+        }
+        assert!(!computes_in(b"N1 X=1.5 A3=-0.2\n", Control::Sinumerik840d));
+        assert!(!computes_in(b"CALL PGM Q\nQ", Control::Heidenhain));
+    }
+
+    #[test]
+    fn free_locals_are_those_that_no_line_names() {
+        let free = free_locals(
+            b"QL499 = 3\nql498=1\nFN 0: QL07\nQL99999999999999999999\nQQL12 QL",
+            Control::Heidenhain,
+        );
+        assert_eq!(free.len(), LOCALS_OF_BLOCK);
+        assert!([499, 498, 7, 12].iter().all(|n| !free.contains(n)));
+        assert!(free_locals(b"", Control::Fanuc).is_empty());
+    }
 }

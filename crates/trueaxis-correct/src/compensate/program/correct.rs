@@ -1,10 +1,11 @@
 //! What is to be commanded instead, with what the machine is known to do in its direction of travel.
 
 use super::number::Increments;
-use super::ready::{Preparation, Prepared};
+use super::ready::Prepared;
+use trueaxis_geometry::Vec3;
+use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, AxisKind, Command, MAX_AXES};
 use trueaxis_machine::compensate::{AxisLimitation, Compensator, Fault as NoCorrection, Scope};
-use trueaxis_machine::{Deviation, Machine};
 use trueaxis_motion::STILL;
 use trueaxis_motion::axis_path::Fault;
 use trueaxis_nc::moves::Origin;
@@ -36,8 +37,6 @@ pub(super) struct Corrector {
     least: Command,
     /// The side from which each axis came in the program that is written.
     approach: Approach,
-    /// Corrections of the present stretch; `None` if every one is made by itself.
-    preparation: Option<Preparation>,
 }
 
 /// A place that is to be corrected.
@@ -80,26 +79,7 @@ impl Corrector {
             reverses: reverses(machine),
             least: least_motions(machine, increments),
             approach: Approach::default(),
-            preparation: None,
         })
-    }
-
-    /// The same with the batch compensator ahead.
-    #[must_use]
-    pub fn by_batch(self) -> Self {
-        Self { preparation: Some(Preparation::of(&self.pose, self.reverses)), ..self }
-    }
-
-    /// Corrects the places of a stretch ahead; the axes stand at `from` before it.
-    pub fn prepare(&mut self, places: impl Iterator<Item = Command>, from: &Command) {
-        if let Some(preparation) = &mut self.preparation {
-            preparation.prepare(places, (*from, self.approach));
-        }
-    }
-
-    /// What was prepared for a place of the stretch.
-    pub fn prepared(&self, index: usize) -> Option<Prepared> {
-        self.preparation.as_ref()?.at(index)
     }
 
     /// The same history on the machine with another tool.
@@ -119,7 +99,7 @@ impl Corrector {
         let Place { nominal, approach, origin, mut side, .. } = *at;
         let fits = |p: &Prepared| !at.only_position && (!self.reverses || p.side == side);
         if let Some(prepared) = prepared.filter(fits) {
-            self.within_limit(&prepared.before, origin)?;
+            self.within_limit(prepared.before, origin)?;
             let Prepared { command, left, .. } = prepared;
             let real = turned(approach, at.from, &command, &self.least);
             if !self.reverses || real == side {
@@ -131,7 +111,7 @@ impl Corrector {
         loop {
             let done = compensator.at(nominal, &side);
             let done = done.map_err(|e| self.refused(nominal, origin, &e))?;
-            self.within_limit(&done.before, origin)?;
+            self.within_limit([done.before.tip_mm, done.before.axis], origin)?;
             let real = turned(approach, at.from, &done.command, &self.least);
             rounds -= 1;
             let undecided = self.reverses && real != side;
@@ -165,11 +145,6 @@ impl Corrector {
         compensator.at(nominal, &Approach::default()).map_or(*nominal, |done| done.command)
     }
 
-    /// The same, if it was made ahead for a place of the stretch.
-    pub fn mean_prepared(&self, index: usize) -> Option<Command> {
-        self.preparation.as_ref()?.mean_at(index)
-    }
-
     /// The side from which the axes of the written program came.
     pub fn approach(&self) -> &Approach {
         &self.approach
@@ -180,10 +155,10 @@ impl Corrector {
         self.approach = reached(&self.approach, from, to);
     }
 
-    fn within_limit(&self, before: &Deviation, origin: Origin) -> Result<(), Fault> {
+    fn within_limit(&self, [tip, axis]: [Vec3; 2], origin: Origin) -> Result<(), Fault> {
         let limit = self.limit;
-        let tip = (before.tip_mm.norm(), limit.tip_mm, "tip", "mm", 1.0);
-        let axis = (before.axis.norm(), limit.axis_rad, "tool axis", "mrad", 1e3);
+        let tip = (tip.norm(), limit.tip_mm, "tip", "mm", 1.0);
+        let axis = (axis.norm(), limit.axis_rad, "tool axis", "mrad", 1e3);
         for (by, limit, what, unit, scale) in [tip, axis] {
             // NaN is within no limit.
             if by.is_nan() || by > limit {

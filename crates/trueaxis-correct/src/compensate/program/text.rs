@@ -1,5 +1,6 @@
 //! The text that is rewritten line by line; all other bytes stay.
 
+use super::computed::any_at;
 use super::line_table::LineTable;
 use super::number::Unit;
 use super::words::Words;
@@ -118,9 +119,8 @@ fn has_modes(source: &[u8]) -> bool {
     let begins = |i: usize, word: &[u8]| {
         source.get(i..i + word.len()).is_some_and(|w| w.eq_ignore_ascii_case(word))
     };
-    let is_first = |byte: &u8| matches!(byte, b'G' | b'g' | b'I' | b'i');
-    let mut firsts = source.iter().enumerate().filter(|(_, byte)| is_first(byte));
-    firsts.any(|(i, _)| WORDS.iter().any(|word| begins(i, word)))
+    let is_first = |byte: u8| matches!(byte, b'G' | b'g' | b'I' | b'i');
+    any_at(source, is_first, |i| WORDS.iter().any(|word| begins(i, word)))
 }
 
 impl<'p> Text<'p> {

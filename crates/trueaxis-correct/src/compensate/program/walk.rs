@@ -11,6 +11,7 @@ use super::found::{Found, Want};
 use super::guard;
 use super::line_table::LineTable;
 use super::number::{Grid, Of, Unit};
+use super::ready::Ready;
 use super::refuse::{again, cone, refusal};
 use super::stand::{Cut, Sample, Stand};
 use super::text::{Edits, Modes, Text};
@@ -69,6 +70,8 @@ pub(super) struct Walk<'w> {
     edits: Edits,
     samples: Vec<Sample>,
     stops: Vec<Stop>,
+    /// What was found ahead for the present stretch.
+    ready: Ready,
     /// Where the move before ended by the program as it is, with what was commanded there; none after a change of the control.
     before: Option<(Command, Sample)>,
 }
@@ -124,6 +127,7 @@ impl<'w> Walk<'w> {
             edits: Edits::default(),
             samples: Vec::new(),
             stops: Vec::new(),
+            ready: Ready::default(),
             before: None,
         })
     }
@@ -141,11 +145,13 @@ impl<'w> Walk<'w> {
 
     /// Writes a stretch of the program.
     pub fn take(&mut self, stretch: &mut Stretch) {
-        if let Some(first) = stretch.steps.first() {
-            let places = stretch.nodes.iter().map(|node| node.command);
-            self.corrector.prepare(places, &first.begin);
-        }
-        let Stretch { steps, nodes, words } = stretch;
+        std::mem::swap(&mut self.ready, &mut stretch.ready);
+        self.steps(stretch);
+        // It is filled again.
+        std::mem::swap(&mut self.ready, &mut stretch.ready);
+    }
+
+    fn steps(&mut self, Stretch { steps, nodes, words, .. }: &mut Stretch) {
         for ahead in steps {
             if self.fault.is_some() {
                 return;
@@ -529,9 +535,8 @@ fn corrector(
     origin: Origin,
 ) -> Result<Corrector, Fault> {
     let made = Corrector::of(machine, options.position_only, options.limit, options.increments);
-    let corrector = made.map_err(|fault| {
+    made.map_err(|fault| {
         let hint = "a machine with three linear axes is needed";
         refusal(origin, "not-correctable", fault.to_string(), hint)
-    })?;
-    Ok(if options.pose_by_pose { corrector } else { corrector.by_batch() })
+    })
 }

@@ -39,7 +39,7 @@ impl Walk<'_> {
             last = done.command;
             self.found.correct((&stop.nominal, m.origin.line), &done);
             if !nowhere {
-                let sample = self.sample(stop.u, &stop.nominal, done.command);
+                let sample = self.sample(stop.u, (&stop.nominal, stop.prepared), done.command);
                 samples.push(Sample { turns: stop.turns, side, ..sample });
             }
         }
@@ -55,7 +55,7 @@ impl Walk<'_> {
                 let side = *self.corrector.approach();
                 Sample { u: 0.0, side, turns: false, ..*last }
             }
-            _ => self.sample(0.0, nominal, command),
+            _ => self.sample(0.0, (nominal, None), command),
         }
     }
 
@@ -92,7 +92,7 @@ impl Walk<'_> {
             let only_position = self.written.is_only_tilted();
             let mean = |nominal: &Command| self.corrector.mean(nominal, only_position);
             let at = |(u, nominal, prepared): (f64, &Command, Option<usize>)| {
-                let ahead = prepared.and_then(|k| self.corrector.mean_prepared(k));
+                let ahead = prepared.and_then(|k| self.ready.mean_at(k));
                 let mean = ahead.unwrap_or_else(|| mean(nominal));
                 At { u, nominal: *nominal, mean, prepared }
             };
@@ -140,17 +140,26 @@ impl Walk<'_> {
             only_position: self.written.is_only_tilted(),
             origin: way.nodes.first().map_or(m.origin, |node| node.origin),
         };
-        let prepared = stop.prepared.and_then(|k| self.corrector.prepared(k));
+        let prepared = stop.prepared.and_then(|k| self.ready.at(k));
         self.corrector.at(&place, prepared)
     }
 
-    fn sample(&self, u: f64, nominal: &Command, command: Command) -> Sample {
+    /// A place, with its number in the stretch if it has one, and what is commanded for it.
+    fn sample(
+        &self,
+        u: f64,
+        (nominal, prepared): (&Command, Option<usize>),
+        command: Command,
+    ) -> Sample {
         let stand = |c: &Command| match self.written.control() {
             Some(control) => Stand::of(control, c),
             None => Stand::default(),
         };
-        let (wanted, believed) = (stand(nominal), stand(&command));
+        let wanted = prepared.and_then(|k| self.ready.wanted_at(k));
+        let believed = prepared.and_then(|k| self.ready.believed_at(k, &command));
         let side = *self.corrector.approach();
+        let wanted = wanted.unwrap_or_else(|| stand(nominal));
+        let believed = believed.unwrap_or_else(|| stand(&command));
         Sample { u, wanted, command, believed, side, turns: false }
     }
 }
