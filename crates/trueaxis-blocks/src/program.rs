@@ -269,8 +269,8 @@ impl Program {
     }
 
     /// Its text, back again.
-    pub fn into_source(self) -> Vec<u8> {
-        self.source.into_vec()
+    pub fn into_source(self) -> Content {
+        self.source
     }
 
     /// The text in parts; the one before is passed, so that a long text is looked through in little memory.

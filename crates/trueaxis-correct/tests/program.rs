@@ -1,8 +1,11 @@
 //! Laws of compensated programs on a machine without errors: nothing to correct, nothing that is missed.
 
+use std::io;
+use std::path::Path;
 use trueaxis_correct::compensate::program::{
     ProgramOptions, Rewritten, compensate_program, compensate_program_with,
 };
+use trueaxis_input::{Content, Draft, Files, Kept, Source};
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::NoTables;
 use trueaxis_motion::SetUp;
@@ -86,4 +89,88 @@ fn law_progress_grows_and_changes_nothing() {
     assert!(parts.len() > 3 && parts.windows(2).all(|w| w[0] <= w[1]), "{parts:?}");
     assert!(parts.iter().all(|part| (0.0..1.0).contains(part)) && *parts.last().unwrap() > 0.7);
     assert_eq!(shown.expect("a program").text, plain.expect("a program").text);
+}
+
+/// Keeps texts in pieces elsewhere than in one list, as a disk does; or loses them.
+struct Elsewhere {
+    loses: bool,
+}
+
+#[derive(Default)]
+struct Pieces {
+    all: Vec<Box<[u8]>>,
+    loses: bool,
+}
+
+struct Joined(Vec<u8>);
+
+impl Kept for Joined {
+    fn bytes(&self) -> &[u8] {
+        &self.0
+    }
+
+    fn pass(&self, _: std::ops::Range<usize>) {}
+}
+
+impl Draft for Pieces {
+    fn length(&self) -> usize {
+        self.all.iter().map(|piece| piece.len()).sum()
+    }
+
+    fn put(&mut self, bytes: &[u8]) {
+        self.all.push(bytes.into());
+    }
+
+    fn read(&self, range: std::ops::Range<usize>) -> Vec<u8> {
+        self.all.concat()[range].to_vec()
+    }
+
+    fn finish(self: Box<Self>) -> io::Result<Content> {
+        match self.loses {
+            true => Err(io::ErrorKind::StorageFull.into()),
+            false => Ok(Content::kept(Joined(self.all.concat()))),
+        }
+    }
+}
+
+impl Source for Elsewhere {
+    fn read(&self, _: &Path) -> io::Result<Vec<u8>> {
+        Err(io::ErrorKind::NotFound.into())
+    }
+
+    fn is_file(&self, _: &Path) -> bool {
+        false
+    }
+
+    fn draft(&self, _: usize) -> Box<dyn Draft> {
+        Box::new(Pieces { loses: self.loses, ..Pieces::default() })
+    }
+}
+
+/// The text is the same wherever it is kept: lines in order, a part that is skipped and executed later, lines that are
+/// executed again; and where it is lost there is no program.
+#[test]
+fn law_where_the_text_is_kept_does_not_matter() {
+    let machine = "machine = { name = 'm', chain = 'w b X Y Z t' }\n[tool]\nlength = '100 mm'\n\
+                   [motion.X]\nEXX = { polynomial = ['0 um', '30 um'], scale = '10 mm' }\n";
+    let machine = Machine::check("m.toml", machine, &NoTables).0.expect("a machine");
+    let in_order = "G710 G90 G94 F500\nG1 X10 Y10\nX20\nM30\n";
+    let skipped = "G710 G90 G94 F500\nGOTOF MID\nPART: G1 X10 Y10\nX20\nGOTOF FIN\n\
+                   MID: G1 X5 Y5\nX7 Y6\nGOTOB PART\nFIN: X0\nM30\n";
+    let again = "G710 G90 G94 F500\nG1 X0 Y0\nAGAIN: G1 X10 Y10\nX20 Y0\nREPEAT AGAIN P=3\nM30\n";
+    for text in [in_order, skipped, again] {
+        let program = Program::new("p.mpf", text.as_bytes().to_vec(), Control::Sinumerik840d);
+        let of = |files: Files| {
+            let set_up = SetUp { files, ..SetUp::default() };
+            compensate_program(&machine, &program, &set_up, &ProgramOptions::default())
+        };
+        let (plain, problems) = of(Files::none());
+        let plain = plain.unwrap_or_else(|| panic!("{problems:?}"));
+        let shown = String::from_utf8_lossy(&plain.text);
+        assert!(plain.is_proved() && shown.contains("X9.9"), "{shown}");
+        let kept = of(Files::new(Elsewhere { loses: false })).0.expect("a program");
+        assert_eq!(String::from_utf8_lossy(&kept.text), String::from_utf8_lossy(&plain.text));
+        let (none, problems) = of(Files::new(Elsewhere { loses: true }));
+        assert!(none.is_none() && problems.iter().any(|p| p.code == "unwritable-file"));
+    }
 }

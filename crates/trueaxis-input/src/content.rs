@@ -68,6 +68,18 @@ impl From<Vec<u8>> for Content {
     }
 }
 
+impl Default for Content {
+    fn default() -> Self {
+        Vec::new().into()
+    }
+}
+
+impl PartialEq for Content {
+    fn eq(&self, other: &Self) -> bool {
+        **self == **other
+    }
+}
+
 impl Deref for Content {
     type Target = [u8];
 

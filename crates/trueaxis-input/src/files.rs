@@ -1,7 +1,7 @@
 //! Access to files. The readers of this workspace open no file themselves: the caller passes a
 //! [`Files`], which may be a disk, an upload or the memory of a test.
 
-use crate::{Content, Diagnostics, Place};
+use crate::{Content, Diagnostics, Draft, Place};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::io;
@@ -26,6 +26,11 @@ pub trait Source: Send + Sync {
 
     /// Whether the path names a regular file that may be read.
     fn is_file(&self, path: &Path) -> bool;
+
+    /// Where a text of some such length is put together: in the memory, unless the source has another place for long ones.
+    fn draft(&self, bytes: usize) -> Box<dyn Draft> {
+        Box::new(Vec::with_capacity(bytes))
+    }
 }
 
 /// The files that a reader may open. A handle, cheap to clone; its default is [`Files::none`].
@@ -43,6 +48,11 @@ impl Files {
     /// The files of a source.
     pub fn new(source: impl Source + 'static) -> Self {
         Self(Arc::new(source))
+    }
+
+    /// See [`Source::draft`].
+    pub fn draft(&self, bytes: usize) -> Box<dyn Draft> {
+        self.0.draft(bytes)
     }
 
     /// These files with some more in memory, which stand before files of the same name.
@@ -160,6 +170,10 @@ impl Source for WithTexts {
 
     fn is_file(&self, path: &Path) -> bool {
         self.texts.contains_key(path) || self.others.is_file(path)
+    }
+
+    fn draft(&self, bytes: usize) -> Box<dyn Draft> {
+        self.others.draft(bytes)
     }
 }
 

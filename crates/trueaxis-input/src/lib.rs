@@ -40,6 +40,7 @@
 mod content;
 mod csv;
 mod diagnostic;
+mod draft;
 mod files;
 pub mod foreign;
 mod in_order;
@@ -54,6 +55,7 @@ mod vector;
 pub use content::{Content, Kept};
 pub use csv::{CsvColumn, CsvTable};
 pub use diagnostic::{Diagnostic, Diagnostics, Place, Severity};
+pub use draft::Draft;
 pub use files::{Files, Source};
 pub use in_order::{in_order, usual_threads};
 pub use quantity::{Dimension, MeasuredValue, QuantityError, Unit, parse_measured, parse_quantity};

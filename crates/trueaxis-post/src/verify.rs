@@ -87,7 +87,7 @@ pub fn verify_in_place(
     let text = std::mem::take(&mut posted.text);
     let program = Program::new(&options.name, text, options.control);
     let verification = compare(machine, posted, &program, options);
-    posted.text = program.into_source();
+    posted.text = program.into_source().into_vec();
     verification
 }
 

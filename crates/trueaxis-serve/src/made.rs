@@ -83,6 +83,7 @@ impl Desk {
             let name = shown(&file.path);
             match file.content {
                 Content::Bytes(content) => vec![MadeFile { name, content }],
+                Content::Long(content) => vec![MadeFile { name, content: content.into_vec() }],
                 Content::Folder(all) => {
                     let inside = |(file, text): (String, String)| MadeFile {
                         name: format!("{name}/{file}"),

@@ -31,7 +31,7 @@
 //! ```
 
 pub mod explain;
-pub mod files;
+pub use trueaxis_files as files;
 pub mod questions;
 pub mod report;
 mod schemas;

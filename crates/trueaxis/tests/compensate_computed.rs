@@ -53,7 +53,7 @@ fn in_place(machine: &Machine, text: &str, control: Control) -> Rewritten {
 
 /// The new text without its mark.
 fn written(done: &Rewritten) -> String {
-    let text = String::from_utf8(done.text.clone()).unwrap();
+    let text = String::from_utf8(done.text.to_vec()).unwrap();
     text.split_inclusive('\n').filter(|l| !l.contains(MARK)).collect()
 }
 

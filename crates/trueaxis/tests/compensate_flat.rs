@@ -163,7 +163,7 @@ fn law_an_unrolled_program_makes_the_same_moves() {
         let program = program(control, name, text);
         let (done, problems) = flat(&machine, &program);
         let Some(done) = done else { panic!("{name}: {problems:?}") };
-        let new = String::from_utf8(done.text).unwrap();
+        let new = String::from_utf8(done.text.into_vec()).unwrap();
         let unrolled = Program::new(name, new.clone().into_bytes(), control);
         let (was, is) = (moves(&program), moves(&unrolled));
         assert!(was.len() > 8, "{name} {}", was.len());
@@ -211,7 +211,7 @@ fn what_does_not_unroll_is_named() {
     match done {
         // Or it is executed to the same moves.
         Some(done) => {
-            let new = Program::new("m.nc", done.text, Control::Fanuc);
+            let new = Program::of("m.nc", done.text, Control::Fanuc);
             assert_eq!(moves(&program), moves(&new));
         }
         None => assert!(problems.iter().any(|d| d.code == "not-unrolled"), "{problems:?}"),
@@ -242,7 +242,7 @@ fn law_turning_cycles_unroll_to_their_moves() {
     let program = program(Control::LinuxCnc, "turning.ngc", TURNING);
     let (done, problems) = flat(&bare("three-axis-mill"), &program);
     let Some(done) = done else { panic!("{problems:?}") };
-    let new = String::from_utf8(done.text).unwrap();
+    let new = String::from_utf8(done.text.into_vec()).unwrap();
     let unrolled = Program::new("turning.ngc", new.clone().into_bytes(), Control::LinuxCnc);
     let (was, is) = (moves(&program), moves(&unrolled));
     assert!(was.len() > 40, "{}", was.len());

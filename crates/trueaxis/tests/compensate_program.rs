@@ -130,7 +130,8 @@ fn law_the_batch_writes_what_pose_by_pose_writes() {
             let by = |pose_by_pose| {
                 let options = ProgramOptions { pose_by_pose, ..ProgramOptions::default() };
                 let (done, problems) = compensated(&machine, &text, way.control, &options);
-                let found = done.map(|d| (String::from_utf8(d.text).unwrap(), d.found.axis_left));
+                let found = done
+                    .map(|d| (String::from_utf8(d.text.into_vec()).unwrap(), d.found.axis_left));
                 (found, codes(&problems))
             };
             let [batch, scalar] = [false, true].map(by);
@@ -145,7 +146,7 @@ fn law_the_batch_writes_what_pose_by_pose_writes() {
 fn rewritten(machine: &Machine, text: &str, control: Control, options: &ProgramOptions) -> String {
     let (done, problems) = compensated(machine, text.as_bytes(), control, options);
     let Some(done) = done else { panic!("{:?}", codes(&problems)) };
-    let text = String::from_utf8(done.text).unwrap();
+    let text = String::from_utf8(done.text.into_vec()).unwrap();
     let marked = text.split_inclusive('\n').filter(|l| !l.contains(MARK));
     marked.collect()
 }
@@ -213,7 +214,7 @@ fn circles_become_lines_where_none_keeps_the_residual() {
     for (control, text) in quarters() {
         let done = circle(&options, control, text);
         assert_eq!(done.found.circles, 1, "{control:?}");
-        let new = String::from_utf8(done.text).unwrap();
+        let new = String::from_utf8(done.text.into_vec()).unwrap();
         assert!(!new.contains("G2 ") && !new.contains("CR=") && !new.contains("DR-"), "{new}");
         // M5 acts when the whole circle is cut.
         let at = new.lines().position(|l| l.contains("M5")).unwrap();

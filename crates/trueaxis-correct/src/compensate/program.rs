@@ -46,7 +46,7 @@ use options::{residual_of_pieces, residual_share};
 use ready::Preparer;
 use std::ops::Range;
 use std::sync::Mutex;
-use trueaxis_input::{Diagnostic, Diagnostics, Place};
+use trueaxis_input::{Content, Diagnostic, Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_motion::Densify;
 use trueaxis_motion::SetUp;
@@ -64,8 +64,8 @@ const PLACES_OF_A_PIECE: f64 = 6.0;
 /// A program that was compensated.
 #[derive(Debug, Clone)]
 pub struct Rewritten {
-    /// The text.
-    pub text: Vec<u8>,
+    /// The text; a long one where the files of the set-up keep it.
+    pub text: Content,
     /// What was done.
     pub found: Found,
     /// What it does on the actual machine.
@@ -124,7 +124,20 @@ pub fn compensate_program_with(
             progress(part);
         }
     };
-    let task: Task<'_> = (options, &grows);
+    let (mut done, problems) = compensated(machine, program, setup, (options, &grows));
+    if let Some(done) = &mut done {
+        done.found.forget();
+    }
+    (done, problems)
+}
+
+fn compensated(
+    machine: &Machine,
+    program: &Program,
+    setup: &SetUp,
+    task: Task<'_>,
+) -> (Option<Rewritten>, Diagnostics) {
+    let (options, _) = task;
     let mut problems = Diagnostics::new();
     if is_compensated(program.source()) {
         let message = "the program is compensated already, its heading says so".to_owned();
@@ -262,10 +275,10 @@ fn on_contour(machine: &Machine, program: &Program, setup: &SetUp, task: Task<'_
     let Some(rewritten) = done.as_mut().filter(|done| done.radius_added) else {
         return OnContour::Done(Box::new(done), problems);
     };
-    let written = Program::new(program.file(), rewritten.text.clone(), program.dialect().control);
+    let written = Program::of(program.file(), rewritten.text.clone(), program.dialect().control);
     let places = densify(options, 1, 2);
     let mut ends: Vec<u32> =
-        rewritten.found.wants.iter().filter(|w| w.end_only).map(|w| w.line).collect();
+        rewritten.found.wants.iter().filter(|w| w.is_end_only()).map(|w| w.line).collect();
     ends.sort_unstable();
     let lines = [&rewritten.numbers[..], &ends];
     let left = match radius::left(machine, [program, &written], setup, lines, places) {
@@ -394,11 +407,19 @@ fn once(
     let conventions = worst
         .map_or(Vec::new(), |(_, nominal, command)| guard::conventions(tooled, &nominal, &command));
     let control = program.dialect().control;
-    let (text, numbers) = walk.text.finish();
+    let (text, numbers) = match walk.text.finish(&setup.files) {
+        Ok(written) => written,
+        Err(fault) => {
+            let message = format!("the text of the new program cannot be kept: {fault}");
+            let hint = "is there room in /var/tmp?";
+            problems.error("unwritable-file", Place::whole(program.file()), message, hint);
+            return (None, problems);
+        }
+    };
     let (mut found, radius_added) = (walk.found, walk.radius_added);
     found.end();
     drop(table);
-    let written = Program::new(program.file(), text, control);
+    let written = Program::of(program.file(), text, control);
     // The middle of every block at least is examined.
     let finer = densify(options, attempt + 1, 2 * least);
     let by = (finer, options.limits_between());

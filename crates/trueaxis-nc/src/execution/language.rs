@@ -118,7 +118,7 @@ pub(crate) trait Language<'r> {
 }
 
 /// So many bytes of a text before the present block are kept, and as many more until they are passed together.
-const KEPT_BACK: usize = 8 << 20;
+const KEPT_BACK: usize = 2 << 20;
 
 /// The part of a run that is the same in all languages.
 pub(crate) struct Core<'r> {

@@ -96,7 +96,7 @@ def licenses() -> str:
     """The licences of everything in this package.
 
     >>> licenses().splitlines()[2]
-    'TrueAxis (29 packages): MIT OR Apache-2.0'
+    'TrueAxis (30 packages): MIT OR Apache-2.0'
     """
     return (Path(__file__).parent / "licenses.txt").read_text(encoding="utf-8")
 

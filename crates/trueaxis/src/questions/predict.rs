@@ -137,7 +137,7 @@ impl Predict {
         problems.append(found);
         let rewritten = rewritten?;
         problems.append(rewritten.unproved);
-        let program = Program::new(job.program.file(), rewritten.text, job.control);
+        let program = Program::of(job.program.file(), rewritten.text, job.control);
         predict_compensated(study, prediction, &program, problems)
     }
 

@@ -1,7 +1,9 @@
 //! How is a program written so that the actual tool goes where it says?
 
 use super::workpiece::{machine_or_part, on_top};
-use super::{Answer, MachineChoice, NewFile, Question, Tell, named_control, with_diagnostics};
+use super::{
+    Answer, Content, MachineChoice, NewFile, Question, Tell, named_control, with_diagnostics,
+};
 use crate::files::output::Output;
 use crate::report;
 use serde_json::Value;
@@ -217,7 +219,7 @@ impl Answer for ProgramAnswer {
         let Some(path) = &self.output else { return Vec::new() };
         // Nothing after this asks for the text: of a large program there is one.
         let text = std::mem::take(&mut self.rewritten.text);
-        let content = if self.is_yes() { text } else { marked(&text) };
-        vec![NewFile::of("program", path, content)]
+        let content = if self.is_yes() { text } else { marked(&text).into() };
+        vec![NewFile { name: "program", path: path.clone(), content: Content::Long(content) }]
     }
 }

@@ -85,18 +85,29 @@ pub struct Found {
 pub(super) struct Want {
     /// The line of the program as it was.
     pub line: u32,
-    /// Which of the lines that it became.
-    pub piece: u32,
-    /// Only its end counts.
-    pub end_only: bool,
+    /// Which of the lines that it became; the highest bit is set where only its end counts.
+    piece: u32,
     /// Its stands, the beginning first.
     pub from: u32,
     pub to: u32,
 }
 
 impl Want {
+    const END_ONLY: u32 = 1 << 31;
+
     pub fn of(line: u32, piece: u32, end_only: bool) -> Self {
-        Self { line, piece, end_only, from: 0, to: 0 }
+        let bit = if end_only { Self::END_ONLY } else { 0 };
+        Self { line, piece: piece | bit, from: 0, to: 0 }
+    }
+
+    /// Which of the lines that its line became.
+    pub fn piece(&self) -> u32 {
+        self.piece & !Self::END_ONLY
+    }
+
+    /// Whether only its end counts.
+    pub fn is_end_only(&self) -> bool {
+        self.piece & Self::END_ONLY != 0
     }
 }
 
@@ -206,6 +217,11 @@ impl Found {
         self.led = Vec::new();
     }
 
+    /// The program is proved: where its pieces lead is not asked any more.
+    pub(super) fn forget(&mut self) {
+        (self.wants, self.stands) = (Vec::new(), Vec::new());
+    }
+
     /// A line was executed; its pieces begin with this one.
     pub(super) fn executed(&mut self, line: u32, first: usize) {
         let index = line as usize;
@@ -220,17 +236,17 @@ impl Found {
 
     /// Stands of a piece; those of one line follow each other.
     pub(super) fn want(&mut self, want: Want, stands: impl ExactSizeIterator<Item = Stand>) {
-        let same = |w: &&mut Want| w.line == want.line && w.piece == want.piece;
+        let same = |w: &&mut Want| w.line == want.line && w.piece() == want.piece();
         if let Some(last) = self.wants.last_mut().filter(same) {
             self.stands.extend(stands.skip(1));
             last.to = self.stands.len() as u32;
             return;
         }
         // Of a rapid move only the end counts.
-        let skip = if want.end_only { stands.len() - 1 } else { 0 };
+        let skip = if want.is_end_only() { stands.len() - 1 } else { 0 };
         let mut stands = stands.skip(skip).peekable();
         // A piece mostly begins where the one before it ends: that stand is kept once.
-        let begins = !want.end_only && stands.peek() == self.stands.last();
+        let begins = !want.is_end_only() && stands.peek() == self.stands.last();
         let from = self.stands.len() as u32 - u32::from(begins);
         self.stands.extend(stands.skip(usize::from(begins)));
         self.wants.push(Want { from, to: self.stands.len() as u32, ..want });

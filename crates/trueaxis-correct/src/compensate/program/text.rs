@@ -5,7 +5,9 @@ use super::line_table::LineTable;
 use super::number::Unit;
 use super::words::Words;
 use std::collections::BTreeMap;
+use std::io;
 use std::ops::Range;
+use trueaxis_input::{Content, Draft, Files};
 use trueaxis_nc::Control;
 
 /// What became of a line.
@@ -32,9 +34,11 @@ pub(super) struct Text<'p> {
     table: &'p LineTable<'p>,
     lines: Vec<Line>,
     /// The new text of the first lines, where each of them begins in it, and its new number.
-    out: Vec<u8>,
+    out: Box<dyn Draft>,
     places: Vec<usize>,
     numbers: Vec<u32>,
+    /// Used again line by line.
+    room: Vec<u8>,
     /// The number of the next line of the new text.
     number: u32,
     /// Lines that were executed after later ones.
@@ -124,15 +128,16 @@ fn has_modes(source: &[u8]) -> bool {
 }
 
 impl<'p> Text<'p> {
-    /// With a comment after its heading.
-    pub fn of(table: &'p LineTable<'p>, comment: String) -> Self {
+    /// With a comment after its heading, put together where `files` keep long texts.
+    pub fn of(table: &'p LineTable<'p>, comment: String, files: &Files) -> Self {
         let (count, has_modes) = (table.count(), has_modes(table.source()));
         let mut text = Self {
             table,
             lines: vec![Line::AsItWas; count],
-            out: Vec::with_capacity(table.source().len() + 256),
+            out: files.draft(table.source().len() + 256),
             places: Vec::with_capacity(count),
             numbers: Vec::with_capacity(count),
+            room: Vec::new(),
             number: 1,
             late: BTreeMap::new(),
             comment: (0, comment),
@@ -203,9 +208,11 @@ impl<'p> Text<'p> {
         let count = first + 1 + further.len() as u32;
         if index >= self.places.len() {
             self.reach(index);
-            let mut out = std::mem::take(&mut self.out);
-            self.put(line, edits, [before, further], &mut out);
-            self.out = out;
+            let mut room = std::mem::take(&mut self.room);
+            self.put(line, edits, [before, further], &mut room);
+            self.out.put(&room);
+            room.clear();
+            self.room = room;
             self.done(count, first);
             return true;
         }
@@ -215,7 +222,7 @@ impl<'p> Text<'p> {
             self.late.insert(index, Change { text: text.into(), count, first });
             return true;
         }
-        *text == *self.changed(index)
+        text == self.changed(index)
     }
 
     /// The changed line, and the others.
@@ -241,15 +248,18 @@ impl<'p> Text<'p> {
     }
 
     /// The new text of a line that was changed.
-    fn changed(&self, index: usize) -> &[u8] {
+    fn changed(&self, index: usize) -> Vec<u8> {
         if let Some(change) = self.late.get(&index) {
-            return &change.text;
+            return change.text.to_vec();
         }
-        let end = self.places.get(index + 1).copied().unwrap_or(self.out.len());
-        let text = &self.out[self.places[index]..end];
+        let end = self.places.get(index + 1).copied().unwrap_or(self.out.length());
+        let mut text = self.out.read(self.places[index]..end);
         // The comment is no part of the line before it.
         let comment = if self.comment.0 == index + 1 { self.heading_comment() } else { Vec::new() };
-        text.strip_suffix(&comment[..]).unwrap_or(text)
+        if text.ends_with(&comment) {
+            text.truncate(text.len() - comment.len());
+        }
+        text
     }
 
     fn heading_comment(&self) -> Vec<u8> {
@@ -263,15 +273,15 @@ impl<'p> Text<'p> {
             let at = self.places.len();
             if at == self.comment.0 {
                 let comment = self.heading_comment();
-                self.out.extend_from_slice(&comment);
+                self.out.put(&comment);
                 self.number += 1;
             }
-            self.places.push(self.out.len());
+            self.places.push(self.out.length());
             if at >= index {
                 return;
             }
             let line = &self.table.source()[self.table.whole(at)];
-            self.out.extend_from_slice(line);
+            self.out.put(line);
             self.done(1, 0);
         }
     }
@@ -288,31 +298,36 @@ impl<'p> Text<'p> {
     }
 
     /// The new text, and the new number of each line.
-    pub fn finish(mut self) -> (Vec<u8>, Vec<u32>) {
+    ///
+    /// # Errors
+    /// What the disk says, if the text is kept there.
+    pub fn finish(mut self, files: &Files) -> io::Result<(Content, Vec<u32>)> {
         if self.places.len() < self.table.count() {
             self.reach(self.table.count());
         }
-        let mut shift = 0;
-        let (mut out, mut from) = (Vec::new(), 0);
+        let mut numbers = std::mem::take(&mut self.numbers);
+        let written = self.out.finish()?;
         if self.late.is_empty() {
-            return (self.out, self.numbers);
+            return Ok((written, numbers));
         }
-        for (index, number) in self.numbers.iter_mut().enumerate() {
+        let mut shift = 0;
+        for (index, number) in numbers.iter_mut().enumerate() {
             *number += shift;
             if let Some(change) = self.late.get(&index) {
                 *number += change.first;
                 shift += change.count - 1;
             }
         }
+        let (mut out, mut from) = (files.draft(written.len()), 0);
         for (index, change) in &self.late {
             // They were written as they were.
             let place = self.places[*index];
-            out.extend_from_slice(&self.out[from..place]);
-            out.extend_from_slice(&change.text);
+            out.put(&written[from..place]);
+            out.put(&change.text);
             from = place + self.table.whole(*index).len();
         }
-        out.extend_from_slice(&self.out[from..]);
-        (out, self.numbers)
+        out.put(&written[from..]);
+        Ok((out.finish()?, numbers))
     }
 
     /// Lines that have to stand first: tape marks, program numbers and names.

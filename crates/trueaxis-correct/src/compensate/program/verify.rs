@@ -2,6 +2,7 @@
 
 use super::found::{Found, Want};
 use super::stand::Stand;
+use std::ops::Range;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
@@ -203,15 +204,34 @@ const UNSEEN: Missed = [-1.0; 2];
 
 /// The line of a want in the program that is simulated.
 fn simulated(want: &Want, numbers: Option<&[u32]>) -> u32 {
-    numbers.map_or(want.line, |numbers| numbers[want.line as usize - 1] + want.piece)
+    numbers.map_or(want.line, |numbers| numbers[want.line as usize - 1] + want.piece())
+}
+
+/// The first want of each line, counted from 1; 0 if there is none.
+fn first_of_lines(wants: &[Want], line_of: impl Fn(&Want) -> u32, lines: usize) -> Vec<u32> {
+    let mut first = vec![0; lines];
+    for (i, want) in wants.iter().enumerate() {
+        let number = line_of(want) as usize;
+        if first.len() <= number {
+            first.resize(number + 1, 0);
+        }
+        // A block that is executed again goes to the same places.
+        if first[number] == 0 {
+            first[number] = i as u32 + 1;
+        }
+    }
+    first
 }
 
 struct Compare<'f> {
     found: &'f Found,
     /// Of the written program: what its tip, mm, and its axis, rad, may miss between the ends of blocks.
     limits: Option<[f64; 2]>,
-    /// The first want of each line of the simulated program, counted from 1; 0 if there is none.
+    /// The first want of each line of the simulated program, counted from 1, 0 if there is none; empty where the wants are in
+    /// the order of these lines.
     at_line: Vec<u32>,
+    /// The wants of the last line.
+    last: Range<usize>,
     /// Of the written program: the lines that those of the program as it was became.
     numbers: Option<&'f [u32]>,
     line: u32,
@@ -226,22 +246,17 @@ struct Compare<'f> {
 impl<'f> Compare<'f> {
     fn of(found: &'f Found, numbers: &'f [u32], limits: Option<[f64; 2]>) -> Self {
         let numbers_of_run = limits.map(|_| numbers);
-        let mut at_line = vec![0; numbers.len() + 1];
-        for (i, want) in found.wants.iter().enumerate() {
-            let number = simulated(want, numbers_of_run) as usize;
-            if at_line.len() <= number {
-                at_line.resize(number + 1, 0);
-            }
-            // A block that is executed again goes to the same places.
-            if at_line[number] == 0 {
-                at_line[number] = i as u32 + 1;
-            }
-        }
+        let line_of = |want: &Want| simulated(want, numbers_of_run);
+        let at_line = match found.wants.is_sorted_by_key(line_of) {
+            true => Vec::new(),
+            false => first_of_lines(&found.wants, line_of, numbers.len() + 1),
+        };
         let rows = vec![UNSEEN; numbers.len() + 1];
         Self {
             found,
             limits,
             at_line,
+            last: 0..0,
             numbers: numbers_of_run,
             line: 0,
             ended: false,
@@ -257,12 +272,30 @@ impl<'f> Compare<'f> {
         Residual { tip_end_rms_mm: rms[0], axis_end_rms_rad: rms[1], ..self.residual }
     }
 
-    fn wants(&self, line: u32) -> &'f [Want] {
-        let first = self.at_line.get(line as usize).copied().unwrap_or(0);
-        let Some(from) = first.checked_sub(1) else { return &[] };
-        let rest = &self.found.wants[from as usize..];
-        let others = |want: &Want| simulated(want, self.numbers) != line;
-        &rest[..rest.iter().position(others).unwrap_or(rest.len())]
+    /// The wants of a line.
+    fn wants_of(&self, line: u32) -> Range<usize> {
+        let wants = &self.found.wants;
+        let line_of = |want: &Want| simulated(want, self.numbers);
+        let from = match self.at_line.get(line as usize) {
+            Some(0) => return 0..0,
+            Some(first) => *first as usize - 1,
+            None if !self.at_line.is_empty() => return 0..0,
+            // Mostly they follow those of the line before.
+            None => {
+                let next = self.last.end;
+                let begins = |at: usize| {
+                    let is_before = |at: usize| wants.get(at).is_some_and(|w| line_of(w) < line);
+                    at.checked_sub(1).is_none_or(is_before) && !is_before(at)
+                };
+                match begins(next) {
+                    true => next,
+                    false => wants.partition_point(|want| line_of(want) < line),
+                }
+            }
+        };
+        let others = |want: &Want| line_of(want) != line;
+        let count = wants[from..].iter().position(others).unwrap_or(wants.len() - from);
+        from..from + count
     }
 
     /// How far a place is from the way of a piece.
@@ -318,8 +351,11 @@ impl Observer for Compare<'_> {
             let line = if node.origin.program == 0 { node.origin.line } else { 0 };
             if line != self.line {
                 (self.line, self.ended) = (line, false);
+                let found = self.wants_of(line);
+                // A line without wants does not lead away from those that come next.
+                self.last = if found.is_empty() { self.last.end..self.last.end } else { found };
             }
-            let wants = self.wants(line);
+            let wants = &self.found.wants[self.last.clone()];
             let (Some(first), Some(last)) = (wants.first(), wants.last()) else { continue };
             if self.ended {
                 continue;
@@ -329,7 +365,7 @@ impl Observer for Compare<'_> {
             if node.last {
                 self.ended = true;
                 self.end(last, &is);
-            } else if !first.end_only {
+            } else if !first.is_end_only() {
                 let each = wants.iter().map(|w| self.missed(w, &is));
                 let missed = each.min_by(|a, b| a[0].total_cmp(&b[0])).unwrap_or([0.0, 0.0]);
                 self.residual.tip.take(missed[0], first.line);
@@ -361,5 +397,30 @@ mod tests {
         assert_eq!(along[1666].axis_after_rad, 0.5);
         let few = super::along(&before[..3], &after[..3]);
         assert_eq!(few.iter().map(|b| b.line).collect::<Vec<_>>(), [1, 2]);
+    }
+
+    /// With gaps between lines and with several pieces of a line, asked for in order and across it.
+    #[test]
+    fn law_wants_in_the_order_of_lines_are_found_without_a_table() {
+        let lines = [2, 3, 3, 3, 7, 8, 12, 12, 20];
+        let mut found = Found::default();
+        let pieces = [0, 0, 1, 2, 0, 0, 0, 1, 0];
+        found.wants = lines.iter().zip(pieces).map(|(l, p)| Want::of(*l, p, false)).collect();
+        let numbers: Vec<u32> = (1..=20).map(|line| 1 + 4 * line).collect();
+        for limits in [None, Some([1.0; 2])] {
+            let mut sorted = Compare::of(&found, &numbers, limits);
+            let mut by_table = Compare::of(&found, &numbers, limits);
+            assert!(sorted.at_line.is_empty());
+            let line_of = |want: &Want| simulated(want, by_table.numbers);
+            by_table.at_line = first_of_lines(&found.wants, line_of, numbers.len() + 1);
+            let last = if limits.is_some() { 90 } else { 22 };
+            for line in (0..last).chain((0..last).rev()).chain((0..last).map(|k| k * 37 % last)) {
+                let range = sorted.wants_of(line);
+                assert_eq!(range.len(), by_table.wants_of(line).len(), "{line}");
+                assert!(range.is_empty() || range == by_table.wants_of(line), "{line}");
+                let nowhere = sorted.last.end..sorted.last.end;
+                sorted.last = if range.is_empty() { nowhere } else { range };
+            }
+        }
     }
 }

@@ -108,7 +108,7 @@ impl<'w> Walk<'w> {
             setup,
             corrector,
             written: AxisPath::new(machine, setup, ENDS, 0.01),
-            text: Text::of(table, guard::comment(&options.mark, control)),
+            text: Text::of(table, guard::comment(&options.mark, control), &setup.files),
             found: Found::of(machine),
             fault: None,
             last: None,

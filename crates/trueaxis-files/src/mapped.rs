@@ -15,20 +15,26 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use trueaxis_input::Kept;
 
 /// A file in pages.
-pub(super) struct Mapped(Mmap);
+pub(crate) struct Mapped(Mmap);
 
 impl Mapped {
-    /// A copy of at most so many bytes, in `/var/tmp`, which is on a disk, or else where temporary files are.
+    /// A private copy of at most so many bytes.
     ///
     /// # Errors
     /// What the disk says.
     pub fn copy_of(file: &File, most: u64) -> io::Result<Self> {
-        let on_disk = without_name(Path::new("/var/tmp"));
-        let mut copy = on_disk.or_else(|_| without_name(&std::env::temp_dir()))?;
+        let mut copy = without_name()?;
         io::copy(&mut file.take(most), &mut copy)?;
-        // SAFETY: the copy has no name and only this process has opened it; nothing writes to it after this line.
-        let map = unsafe { Mmap::map(&copy) }?;
-        Ok(Self(map))
+        Self::of(&copy)
+    }
+
+    /// A file of [`without_name`] that is not written to any more.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn of(file: &File) -> io::Result<Self> {
+        // SAFETY: the file has no name and only this process has opened it; nothing writes to it after this line.
+        unsafe { Mmap::map(file) }.map(Self)
     }
 }
 
@@ -49,8 +55,13 @@ impl Kept for Mapped {
     }
 }
 
-/// A file in a folder that vanishes with the last who has opened it.
-fn without_name(folder: &Path) -> io::Result<File> {
+/// A file in `/var/tmp`, which is on a disk, or else where temporary files are: it vanishes with the last who has opened it.
+pub(crate) fn without_name() -> io::Result<File> {
+    let on_disk = without_name_in(Path::new("/var/tmp"));
+    on_disk.or_else(|_| without_name_in(&std::env::temp_dir()))
+}
+
+fn without_name_in(folder: &Path) -> io::Result<File> {
     static COUNT: AtomicUsize = AtomicUsize::new(0);
     let mut last = io::Error::from(io::ErrorKind::AlreadyExists);
     // A name that is taken, by a link perhaps, is not opened.
@@ -86,6 +97,6 @@ mod tests {
             copy.pass(range);
             assert!(copy.bytes() == text);
         }
-        assert!(without_name(Path::new("/var/no/such/folder")).is_err());
+        assert!(without_name_in(Path::new("/var/no/such/folder")).is_err());
     }
 }

@@ -24,10 +24,10 @@ thread_local! {
 ///   take up other work meanwhile;
 /// - *races*: between the check of a path and its use another process that may write below `root` can put a
 ///   link there that leads outside; hard links, which have no outside, are files like others;
-/// - *other crates*: what does not go through [`crate::files`] is not seen.
+/// - *other crates*: what does not go through this crate is not seen.
 ///
 /// ```
-/// use trueaxis::files;
+/// use trueaxis_files as files;
 /// let folder = std::env::temp_dir();
 /// let outside = files::within(&folder, || files::read_bytes("/etc/passwd".as_ref()));
 /// assert!(outside.is_err());
@@ -50,7 +50,7 @@ pub fn within<T>(root: &Path, work: impl FnOnce() -> T) -> T {
 ///
 /// # Errors
 /// It lies outside the folder of the scope, or cannot be found there.
-pub(super) fn readable(path: &Path) -> io::Result<Cow<'_, Path>> {
+pub(crate) fn readable(path: &Path) -> io::Result<Cow<'_, Path>> {
     if is_free() {
         return Ok(Cow::Borrowed(path));
     }
@@ -66,7 +66,7 @@ pub(super) fn readable(path: &Path) -> io::Result<Cow<'_, Path>> {
 ///
 /// # Errors
 /// Its folder, or what stands at its place, lies outside the folder of the scope.
-pub(super) fn writable(path: &Path) -> io::Result<Cow<'_, Path>> {
+pub(crate) fn writable(path: &Path) -> io::Result<Cow<'_, Path>> {
     if is_free() {
         return Ok(Cow::Borrowed(path));
     }
@@ -89,7 +89,7 @@ pub(super) fn writable(path: &Path) -> io::Result<Cow<'_, Path>> {
 }
 
 /// Makes the folder of a file where it is missing, if the deepest folder that is there may be written.
-pub(super) fn make_folder_of(path: &Path) -> io::Result<()> {
+pub(crate) fn make_folder_of(path: &Path) -> io::Result<()> {
     let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) else {
         return Ok(());
     };

@@ -19,7 +19,7 @@ const MAX_BYTES: u64 = 1 << 24;
 const LARGE_BYTES: usize = 1 << 20;
 
 /// Whether this program wrote what stands there, and it has not changed since.
-pub(super) fn is_ours(path: &Path) -> bool {
+pub(crate) fn is_ours(path: &Path) -> bool {
     let Some((list, name)) = place(path).filter(|(list, _)| is_usable(list)) else { return false };
     let Ok(file) = File::open(list) else { return false };
     let Ok(sums) = read(&file) else { return false };
@@ -28,12 +28,12 @@ pub(super) fn is_ours(path: &Path) -> bool {
 
 /// Notes that this program wrote what stands there. Where that is not possible (the list belongs to another
 /// user of the folder, a name does not fit into a line) the file counts as that of a person, and stays.
-pub(super) fn note(path: &Path) {
+pub(crate) fn note(path: &Path) {
     let _ = checksum(path).and_then(|sum| note_sum(path, sum));
 }
 
 /// Writes a content with `write`, and notes it as [`note()`] does: its checksum is computed meanwhile.
-pub(super) fn write_and_note(
+pub(crate) fn write_and_note(
     path: &Path,
     content: &[u8],
     write: impl FnOnce() -> io::Result<()>,

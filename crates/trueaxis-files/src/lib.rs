@@ -1,6 +1,8 @@
 //! Files in, files out: the only place of the loop that touches the disk.
 
 #[cfg(unix)]
+mod draft;
+#[cfg(unix)]
 mod mapped;
 pub mod output;
 mod scope;
@@ -14,7 +16,7 @@ use std::io::{self, BufWriter, Read, Write};
 use std::path::{Component, Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
-use trueaxis_input::{Content, Diagnostics, Files, Source};
+use trueaxis_input::{Content, Diagnostics, Draft, Files, Source};
 use trueaxis_machine::Machine;
 
 /// No file that people write or export is longer, but for programs; a larger one is refused before it fills the memory.
@@ -42,6 +44,16 @@ impl Source for Disk {
 
     fn is_file(&self, path: &Path) -> bool {
         is_file(path)
+    }
+
+    fn draft(&self, bytes: usize) -> Box<dyn Draft> {
+        #[cfg(unix)]
+        if bytes as u64 > MAX_HELD_BYTES
+            && let Ok(draft) = draft::LongDraft::new()
+        {
+            return Box::new(draft);
+        }
+        Box::new(Vec::with_capacity(bytes))
     }
 }
 
@@ -90,12 +102,16 @@ impl Source for NotedDisk {
     fn is_file(&self, path: &Path) -> bool {
         Disk.is_file(path)
     }
+
+    fn draft(&self, bytes: usize) -> Box<dyn Draft> {
+        Disk.draft(bytes)
+    }
 }
 
 /// Reads and checks a machine file with the tables that it names.
 ///
 /// ```no_run
-/// let (machine, problems) = trueaxis::files::machine("machines/xkas2525/machine.toml".as_ref());
+/// let (machine, problems) = trueaxis_files::machine("machines/xkas2525/machine.toml".as_ref());
 /// assert_eq!(machine.unwrap().chain_text(), "w b X Y Z C A t");
 /// ```
 pub fn machine(path: &Path) -> (Option<Machine>, Diagnostics) {
