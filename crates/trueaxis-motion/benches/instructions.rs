@@ -39,7 +39,10 @@ fn main() {
     let times = times.and_then(|times| times.parse().ok()).unwrap_or(1);
     match KERNELS.iter().find(|(kernel, _)| *kernel == name) {
         Some((_, kernel)) => kernel(times),
-        None => KERNELS.iter().for_each(|(kernel, _)| println!("{kernel} {COUNT}")),
+        None => {
+            let names = KERNELS.map(|(kernel, _)| format!("{kernel} {COUNT}\n")).concat();
+            std::io::Write::write_all(&mut std::io::stdout(), names.as_bytes()).expect("an output");
+        }
     }
 }
 

@@ -112,7 +112,12 @@ impl Follower for Leader<'_> {
     fn take(&mut self, step: Step) {
         // Without `keep_going` the first fault ends the simulation.
         let goes_on = self.keep_going || self.path.faults.is_empty();
-        if !goes_on || self.sent.to.is_none() || self.stop.is_requested() {
+        if self.stop.is_requested() {
+            return;
+        }
+        if !goes_on || self.sent.to.is_none() {
+            // The interpreter goes on and asks where the axes are.
+            self.path.take(&step, &mut |_| {});
             return;
         }
         self.sent.step(&step);

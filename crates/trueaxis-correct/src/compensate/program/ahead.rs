@@ -161,6 +161,8 @@ impl<'m> Gather<'m> {
 impl Follower for Gather<'_> {
     fn take(&mut self, step: Step) {
         if self.to.is_none() {
+            // The interpreter goes on and asks where the axes are.
+            self.nominal.take(&step, &mut |_| {});
             return;
         }
         let begin = *self.nominal.command();
