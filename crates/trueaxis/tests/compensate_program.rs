@@ -12,7 +12,7 @@ use trueaxis::compensate::program::{
     Increments, MARK, ProgramOptions, Rewritten, compensate_program,
 };
 use trueaxis::geometry::Vec3;
-use trueaxis::input::{Diagnostics, Severity};
+use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::machine::file::NoTables;
 use trueaxis::nc::{Control, Program};
@@ -525,33 +525,4 @@ fn a_tool_length_that_matters_is_stated_by_somebody() {
     // A length of 0 that is stated is a length.
     assert_eq!(refused(&head_mill(length), tcp, 1e-3), None);
     assert_eq!(refused(&head_mill("").with_tip(Vec3::new(0.0, 0.0, -50.0)), tcp, 1e-3), None);
-}
-
-/// After the first error the program is executed on without being written or timed; the interpreter gets the true place all
-/// the same, so that it finds no mistakes that are none: with a new tool an arc begins where the axes are.
-#[test]
-fn law_an_error_makes_no_others() {
-    let text = "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n[tool]\nlength = \"100 mm\"\n\
-                [axis.Z]\ntravel = [\"-150 mm\", \"0 mm\"]\n\
-                [motion.X]\nEXX = { polynomial = [\"0 um\", \"10 um\"], scale = \"100 mm\" }\n";
-    let (machine, problems) = Machine::check("m.toml", text, &NoTables);
-    let machine = machine.unwrap_or_else(|| panic!("{problems:?}"));
-    let moves: String = (0..8000).map(|k| format!("G1 X{} Y{}\n", k % 70, k % 50)).collect();
-    let arc =
-        "T2 M6\nG54 G0 X7. Y0. S7000 M3\nG43 Z20. H2\nG1 Z-48. F900\nG3 X7. Y0. I-7. F900\nM30\n";
-    let program = |first: &str| {
-        let text = format!("G21 G90 G94 G54 F500\nT1 M6\nG43 Z50. H1\n{first}\n{moves}{arc}");
-        Program::new("p.nc", text.into_bytes(), Control::Fanuc)
-    };
-    let options = ProgramOptions::default();
-    let (_, problems) =
-        compensate_program(&machine, &program("G1 Z-400."), &SetUp::default(), &options);
-    let errors = |problems: &Diagnostics| -> Vec<_> {
-        let found = problems.iter().filter(|p| p.severity == Severity::Error);
-        found.map(|p| (p.code, p.place.line)).collect()
-    };
-    assert_eq!(errors(&problems).len(), 1, "{problems:?}");
-    let run =
-        simulate(&machine, &program("G1 A30."), &SetUp::default(), &Options::default(), &mut []);
-    assert_eq!(errors(&run.problems), [("unknown-axis", 4)], "{:?}", run.problems);
 }
