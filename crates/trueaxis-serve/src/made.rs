@@ -82,8 +82,7 @@ impl Desk {
         let each = new.into_iter().flat_map(|file| {
             let name = shown(&file.path);
             match file.content {
-                Content::Bytes(content) => vec![MadeFile { name, content }],
-                Content::Long(content) => vec![MadeFile { name, content: content.into_vec() }],
+                Content::Bytes(content) => vec![MadeFile { name, content: content.into_vec() }],
                 Content::Folder(all) => {
                     let inside = |(file, text): (String, String)| MadeFile {
                         name: format!("{name}/{file}"),
@@ -149,7 +148,7 @@ impl Made {
             let message = format!("{name} {}", kept.message);
             return conflict(message, "save under another name: nothing is replaced");
         }
-        let content = Content::Bytes(file.content.clone());
+        let content = Content::Bytes(file.content.clone().into());
         NewFile { name: "", path, content }.write().map_err(|e| {
             Refusal::new(422, "unwritable-file", format!("{name} cannot be written: {e}"), "")
         })?;

@@ -81,7 +81,7 @@ impl Question for AskStudy {
         let table = self.table.as_ref().map(|path| NewFile {
             name: "table",
             path: path.clone(),
-            content: Content::Bytes(table::csv(&study, &values).into_bytes()),
+            content: Content::Bytes(table::csv(&study, &values).into_bytes().into()),
         });
         Some(StudyAnswer { table, ..StudyAnswer::of_values(Arc::new(study), &values) })
     }

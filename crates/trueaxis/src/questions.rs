@@ -197,9 +197,7 @@ pub struct NewFile {
 #[derive(Debug)]
 pub enum Content {
     /// These bytes.
-    Bytes(Vec<u8>),
-    /// The same, if there may be many of them.
-    Long(trueaxis_input::Content),
+    Bytes(trueaxis_input::Content),
     /// What was written beside its place during the work.
     Part(Part),
     /// It is a folder, new or empty: its files by name, all or none.
@@ -208,7 +206,7 @@ pub enum Content {
 
 impl NewFile {
     fn of(name: &'static str, path: impl Into<PathBuf>, content: impl Into<Vec<u8>>) -> Self {
-        Self { name, path: path.into(), content: Content::Bytes(content.into()) }
+        Self { name, path: path.into(), content: Content::Bytes(content.into().into()) }
     }
 
     /// Puts it in its place.
@@ -218,7 +216,6 @@ impl NewFile {
     pub fn write(self) -> io::Result<()> {
         match self.content {
             Content::Bytes(bytes) => files::write_in_folder(&self.path, &bytes),
-            Content::Long(bytes) => files::write_in_folder(&self.path, &bytes),
             Content::Part(part) => part.put_and_note(),
             Content::Folder(written) => files::write_folder(&self.path, &written),
         }
@@ -230,7 +227,6 @@ pub fn may_put(new: &[NewFile], guard: &Guard, problems: &mut Diagnostics) {
     for file in new {
         match &file.content {
             Content::Bytes(bytes) => guard.may_put(&file.path, Some(bytes), problems),
-            Content::Long(bytes) => guard.may_put(&file.path, Some(bytes), problems),
             Content::Part(_) => guard.may_put(&file.path, None, problems),
             Content::Folder(_) => {}
         }

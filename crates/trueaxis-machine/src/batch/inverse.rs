@@ -230,10 +230,10 @@ impl TipControl {
     pub fn place_all(&self, tips_mm: &[Vec3], commands: &mut [Command]) -> bool {
         assert_eq!(tips_mm.len(), commands.len(), "one tip for each command");
         let groups = tips_mm.chunks(TOGETHER).zip(commands.chunks_mut(TOGETHER));
-        groups.into_iter().all(|(tips, commands)| self.place_group(tips, commands))
+        groups.into_iter().all(|(tips, commands)| self.place_together(tips, commands))
     }
 
-    fn place_group(&self, tips_mm: &[Vec3], commands: &mut [Command]) -> bool {
+    fn place_together(&self, tips_mm: &[Vec3], commands: &mut [Command]) -> bool {
         let form = self.closed_form();
         let Some(form) = form.filter(|form| commands.iter().all(|c| form.holds_for(c))) else {
             return tips_mm.iter().zip(commands).all(|(tip, command)| self.place(*tip, command));

@@ -220,6 +220,6 @@ impl Answer for ProgramAnswer {
         // Nothing after this asks for the text: of a large program there is one.
         let text = std::mem::take(&mut self.rewritten.text);
         let content = if self.is_yes() { text } else { marked(&text).into() };
-        vec![NewFile { name: "program", path: path.clone(), content: Content::Long(content) }]
+        vec![NewFile { name: "program", path: path.clone(), content: Content::Bytes(content) }]
     }
 }
