@@ -15,6 +15,7 @@
 //! A pose's numbers depend on nothing but its own command: not on its neighbours, not on the
 //! number of threads.
 
+mod chain;
 mod columns;
 mod compensated;
 pub(crate) mod drawn;
@@ -30,6 +31,7 @@ mod steps;
 #[allow(unsafe_code, reason = "vector instructions that only some processors have")]
 mod x86;
 
+pub use chain::{CompiledChain, Frames, GROUP, Group, Station, sines_and_cosines};
 pub use columns::{Commands, DeviationColumns, DeviationTable};
 pub use compensated::{
     CommandColumns, CommandTable, CompensationError, CompiledCompensator, Effort,

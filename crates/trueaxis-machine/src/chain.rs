@@ -451,7 +451,7 @@ impl Machine {
     }
 
     /// The nominal tip in the workpiece frame, mm.
-    pub(crate) fn nominal_tip_mm(&self, command: &Command) -> Vec3 {
+    pub fn nominal_tip_mm(&self, command: &Command) -> Vec3 {
         let mut tip = self.tip_mm;
         let joint = |body: &ChainBody| body.axis.map(|a| (&self.axes[a], command[a]));
         for body in self.bodies[self.workpiece_side..].iter().rev() {

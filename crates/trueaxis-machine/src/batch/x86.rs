@@ -3,6 +3,7 @@
 //! The lane types are private to this file, and its entries ask the processor first: no
 //! instruction below is ever reached on a processor without it.
 
+mod chain;
 mod inverse;
 
 use super::columns::DeviationColumns;
@@ -12,6 +13,7 @@ use super::lanes::PoseLanes;
 use super::pieces::Row;
 use super::{BatchError, InstructionSet, Job, kernel};
 use crate::lanes::Lanes;
+pub(super) use chain::*;
 pub(super) use inverse::*;
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Sub};

@@ -81,6 +81,14 @@ pub struct BodyErrors {
 
 impl BodyErrors {
     /// Location errors or error motions.
+    pub fn six(&self, kind: super::ErrorKind) -> &SixErrors {
+        match kind {
+            super::ErrorKind::Location => &self.location,
+            super::ErrorKind::Motion => &self.motion,
+        }
+    }
+
+    /// The same, to change them.
     pub fn six_mut(&mut self, kind: super::ErrorKind) -> &mut SixErrors {
         match kind {
             super::ErrorKind::Location => &mut self.location,
@@ -118,12 +126,7 @@ impl ErrorValues {
 
     /// Sets one value, in mm or rad.
     pub fn set(&mut self, index: ErrorIndex, value: f64) {
-        let body = &mut self.bodies[index.body];
-        let six = match index.kind {
-            super::ErrorKind::Location => &mut body.location,
-            super::ErrorKind::Motion => &mut body.motion,
-        };
-        six.0[index.component as usize] = value;
+        self.bodies[index.body].six_mut(index.kind).0[index.component as usize] = value;
     }
 
     /// Adds to one value, in mm or rad.
@@ -152,11 +155,7 @@ impl ErrorValues {
     }
 
     fn six(&self, index: ErrorIndex) -> &SixErrors {
-        let body = &self.bodies[index.body];
-        match index.kind {
-            super::ErrorKind::Location => &body.location,
-            super::ErrorKind::Motion => &body.motion,
-        }
+        self.bodies[index.body].six(index.kind)
     }
 }
 

@@ -190,16 +190,31 @@ impl Wrench {
 }
 
 /// An actual set-up: its unknowns with their values.
-#[derive(Debug, Clone, Copy, Default)]
-struct Setup {
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Setup {
     tool_point_mm: Vec3,
-    shift_and_turn: SixErrors,
+    instrument_from_reference: Link,
     element_shift_mm: [f64; 3],
     tilt_rad: [f64; 2],
     zero: [f64; 3],
     scale: f64,
     material: f64,
     drift_per_h: Vec3,
+}
+
+impl Default for Setup {
+    fn default() -> Self {
+        Self {
+            tool_point_mm: Vec3::zeros(),
+            instrument_from_reference: Link::identity(),
+            element_shift_mm: [0.0; 3],
+            tilt_rad: [0.0; 2],
+            zero: [0.0; 3],
+            scale: 0.0,
+            material: 0.0,
+            drift_per_h: Vec3::zeros(),
+        }
+    }
 }
 
 impl Instrument {
@@ -270,8 +285,12 @@ impl Instrument {
     ///
     /// Lengths in mm, angles in rad; the channels that the sight does not have are 0.
     pub fn read(&self, view: &View, unknowns: &[f64]) -> [f64; 3] {
-        let setup = self.setup(unknowns);
-        let mut reading = self.counted(view, &setup);
+        self.read_in(view, &self.setup(unknowns))
+    }
+
+    /// The same in a set-up that many readings share.
+    pub(crate) fn read_in(&self, view: &View, setup: &Setup) -> [f64; 3] {
+        let mut reading = self.counted(view, setup);
         if let Some(material) = &self.material {
             reading[0] -= (material.share() + setup.material) * self.material_length(view);
         }
@@ -287,7 +306,7 @@ impl Instrument {
 
     /// The reading before any material is taken into account.
     fn counted(&self, view: &View, setup: &Setup) -> [f64; 3] {
-        let seen_by_instrument = displaced_by(&setup.shift_and_turn).inverse() * view.actual;
+        let seen_by_instrument = setup.instrument_from_reference * view.actual;
         let p = seen_by_instrument.linear() * (self.tool_point_mm + setup.tool_point_mm)
             + seen_by_instrument.shift_mm();
         let drifted = view.drifted * setup.drift_per_h;
@@ -351,7 +370,10 @@ impl Instrument {
             Sight::Element(element) => {
                 element.normals(p - q, self.direction).map(|normal| through(p, normal))
             }
-            Sight::ProbeOffset => [0, 1, 2].map(|i| through(q, -r.column(i).into_owned())),
+            Sight::ProbeOffset => {
+                let along = |i: usize| through(q, -Vec3::new(r[(0, i)], r[(1, i)], r[(2, i)]));
+                [along(0), along(1), along(2)]
+            }
             Sight::Place => [0, 1, 2].map(|i| through(p, Vec3::ith(i, 1.0))),
             Sight::Distance => {
                 // At the reference point itself a distance has no direction; nothing is seen there.
@@ -408,13 +430,14 @@ impl Instrument {
         if self.kind.triggers() || is_radius { -1.0 } else { 1.0 }
     }
 
-    fn setup(&self, unknowns: &[f64]) -> Setup {
-        let mut setup = Setup::default();
+    /// The set-up with its unknowns at these values.
+    pub(crate) fn setup(&self, unknowns: &[f64]) -> Setup {
+        let (mut setup, mut displaced) = (Setup::default(), SixErrors::default());
         for (unknown, value) in self.unknowns.iter().zip(unknowns) {
             match unknown.error {
                 SetupError::ToolPoint(i) => setup.tool_point_mm[i] += value,
-                SetupError::ReferencePoint(i) => setup.shift_and_turn.0[i] += value,
-                SetupError::ReferenceTurn(i) => setup.shift_and_turn.0[3 + i] += value,
+                SetupError::ReferencePoint(i) => displaced.0[i] += value,
+                SetupError::ReferenceTurn(i) => displaced.0[3 + i] += value,
                 SetupError::Shift(i) => setup.element_shift_mm[i] += value,
                 SetupError::Tilt(i) => setup.tilt_rad[i] += value,
                 SetupError::Zero(i) => setup.zero[i] += self.zero_sign() * value,
@@ -423,6 +446,7 @@ impl Instrument {
                 SetupError::Drift(i) => setup.drift_per_h[i] += value,
             }
         }
+        setup.instrument_from_reference = displaced_by(&displaced).inverse();
         setup
     }
 }

@@ -4,6 +4,7 @@
 //!     J = ∂reading/∂unknown at the nominal machine;   row = (f·v + m·ω) φ      docs/model.md eq. 107
 //! ```
 
+use super::groups::Groups;
 use super::known::Known;
 use super::term::{Basis, Term};
 use crate::instruments::instrument::{SetupUnknown, Sight, View};
@@ -292,21 +293,29 @@ impl Design {
 
     /// The rows of these readings in units of their noise, one *column* each: Jᵀ/u.
     pub fn columns(&self, readings: &Readings, range: std::ops::Range<usize>) -> DMatrix<f64> {
-        let n = self.unknowns();
-        let channels =
-            |i: usize| self.instruments[readings.instruments[i] as usize].sight.channels();
-        let mut values = vec![0.0; n * range.clone().map(channels).sum::<usize>()];
-        let mut next = 0;
-        for i in range {
-            let noise = self.instruments[readings.instruments[i] as usize].noise;
-            let end = next + n * channels(i);
-            self.slopes(readings, i, &mut values[next..end]);
-            for (row, u) in values[next..end].chunks_exact_mut(n.max(1)).zip(noise) {
-                row.iter_mut().for_each(|v| *v /= u);
-            }
-            next = end;
-        }
+        let (mut values, n) = (Vec::new(), self.unknowns());
+        Groups::new(self, readings).columns(range, &mut values);
         let m = values.len() / n.max(1);
         DMatrix::from_vec(n, m, values)
+    }
+
+    /// The errors of which terms are unknown, each with its terms.
+    pub(super) fn runs(&self) -> &[(ErrorIndex, std::ops::Range<usize>)] {
+        &self.runs
+    }
+
+    /// The functions that the terms share, each with the axis whose position counts.
+    pub(super) fn functions(&self) -> &[(Option<usize>, Basis)] {
+        &self.functions
+    }
+
+    /// Which of them a term is.
+    pub(super) fn function_of(&self, term: usize) -> usize {
+        self.function_of[term]
+    }
+
+    /// Where the unknowns of an instrument begin.
+    pub(super) fn first_of(&self, instrument: usize) -> usize {
+        self.offsets[instrument]
     }
 }

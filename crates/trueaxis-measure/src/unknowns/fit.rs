@@ -10,11 +10,11 @@
 //! of the plan, not of the noise).
 
 use super::design::Design;
+use super::groups::Groups;
 use super::known::Known;
-use crate::instruments::{Instrument, Readings};
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use crate::instruments::Readings;
+use nalgebra::{DMatrix, DMatrixView, DVector, SymmetricEigen};
 use rayon::prelude::*;
-use std::borrow::Cow;
 use std::ops::Range;
 use trueaxis_machine::chain::CommandFault;
 
@@ -31,8 +31,9 @@ const ROUNDING_STEP: f64 = 1e-4;
 const MOST_PASSES: usize = 60;
 /// Rows that one thread takes at a time: fixed, so that sums do not depend on the machine.
 const CHUNK: usize = 512;
-/// As many slopes are kept between passes (1 GB); beyond, they are made again.
-const MOST_KEPT: usize = 1 << 27;
+/// Chunks whose squares are kept until they are summed, in order: so that a million rows do not keep a thousand matrices, and the
+/// result does not depend on the threads.
+const BATCH: usize = 64;
 
 /// Why there is no answer.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -179,53 +180,23 @@ impl Observability {
     }
 }
 
-/// J/u by chunks, kept if there is room: what every pass needs again.
+/// The readings by chunks.
 struct Rows<'a> {
+    groups: Groups<'a>,
     design: &'a Design,
     readings: &'a Readings,
     weights: &'a [f64],
-    kept: Vec<DMatrix<f64>>,
     prior: Known,
 }
 
 impl<'a> Rows<'a> {
     fn new(design: &'a Design, readings: &'a Readings, weights: &'a [f64]) -> Self {
-        let prior = design.prior();
-        let mut rows = Self { design, readings, weights, kept: Vec::new(), prior };
-        if 3 * readings.len() * design.unknowns() <= MOST_KEPT {
-            rows.kept = (0..rows.chunks()).into_par_iter().map(|c| rows.made(c)).collect();
-        }
-        rows
-    }
-
-    fn chunks(&self) -> usize {
-        self.readings.len().div_ceil(CHUNK)
+        let (groups, prior) = (Groups::new(design, readings), design.prior());
+        Self { groups, design, readings, weights, prior }
     }
 
     fn range(&self, chunk: usize) -> Range<usize> {
         chunk * CHUNK..((chunk + 1) * CHUNK).min(self.readings.len())
-    }
-
-    fn made(&self, chunk: usize) -> DMatrix<f64> {
-        let mut columns = self.design.columns(self.readings, self.range(chunk));
-        if !self.weights.is_empty() {
-            let mut next = 0;
-            for i in self.range(chunk) {
-                for _ in 0..self.instrument(i).sight.channels() {
-                    columns.column_mut(next).scale_mut(self.weights[i].sqrt());
-                    next += 1;
-                }
-            }
-        }
-        columns
-    }
-
-    fn columns(&self, chunk: usize) -> Cow<'_, DMatrix<f64>> {
-        self.kept.get(chunk).map_or_else(|| Cow::Owned(self.made(chunk)), Cow::Borrowed)
-    }
-
-    fn instrument(&self, i: usize) -> &Instrument {
-        &self.design.instruments[self.readings.instruments[i] as usize]
     }
 
     fn weight(&self, i: usize) -> f64 {
@@ -236,40 +207,56 @@ impl<'a> Rows<'a> {
     fn normal(&self) -> DMatrix<f64> {
         let n = self.design.unknowns();
         let mut normal = DMatrix::zeros(n, n);
-        let chunks: Vec<usize> = (0..self.chunks()).collect();
-        // In batches, so that a million rows do not keep a thousand matrices; summed in order, so
-        // that the result does not depend on the threads.
-        for batch in chunks.chunks(64) {
-            let part = |c: &usize| {
-                let columns = self.columns(*c);
-                columns.as_ref() * columns.transpose()
-            };
-            for part in batch.par_iter().map(part).collect::<Vec<_>>() {
+        let chunks: Vec<usize> = (0..self.readings.len().div_ceil(CHUNK)).collect();
+        for batch in chunks.chunks(BATCH) {
+            let part = |room: &mut Vec<f64>, chunk: &usize| self.squared(*chunk, room);
+            for part in batch.par_iter().map_init(Vec::new, part).collect::<Vec<_>>() {
                 normal += part;
             }
         }
         normal + &self.prior.normal
     }
 
+    /// What a chunk adds to JᵀWJ.
+    fn squared(&self, chunk: usize, columns: &mut Vec<f64>) -> DMatrix<f64> {
+        let n = self.design.unknowns();
+        self.groups.columns(self.range(chunk), columns);
+        if !self.weights.is_empty() {
+            let mut columns = columns.chunks_exact_mut(n.max(1));
+            for i in self.range(chunk) {
+                let (root, channels) = (self.weight(i).sqrt(), self.groups.instrument_of(i));
+                for column in columns.by_ref().take(channels.sight.channels()) {
+                    column.iter_mut().for_each(|slope| *slope *= root);
+                }
+            }
+        }
+        let m = columns.len() / n.max(1);
+        let by_columns = DMatrixView::from_slice(columns, n, m);
+        // The same numbers by rows: no second matrix.
+        by_columns * DMatrixView::from_slice_with_strides(columns, m, n, n, 1)
+    }
+
     /// Residuals at these values, and `JᵀW r`.
     fn pass(&self, values: &[f64], residuals: &mut [[f64; 3]]) -> Result<DVector<f64>, FitError> {
         let part = |(chunk, residuals): (usize, &mut [[f64; 3]])| {
-            let mut weighted = Vec::with_capacity(3 * residuals.len());
-            for (i, residual) in self.range(chunk).zip(residuals) {
-                let outside = |fault| FitError::Outside { row: i, fault };
-                let read = self.design.read(self.readings, i, values).map_err(outside)?;
-                let (instrument, root) = (self.instrument(i), self.weight(i).sqrt());
+            let range = self.range(chunk);
+            let first = range.start;
+            let compared = |i: usize, read: [f64; 3]| {
+                let (instrument, mut counts) = (self.groups.instrument_of(i), [0.0; 3]);
                 for c in 0..instrument.sight.channels() {
-                    residual[c] = self.readings.values[i][c] - read[c];
-                    weighted.push(root * residual[c] / instrument.noise[c]);
+                    let residual = self.readings.values[i][c] - read[c];
+                    residuals[i - first][c] = residual;
+                    counts[c] = self.weight(i) * residual / instrument.noise[c].powi(2);
                 }
-            }
-            Ok(self.columns(chunk).as_ref() * DVector::from_vec(weighted))
+                counts
+            };
+            self.groups.pass(range, values, compared)
         };
         let parts: Vec<_> = residuals.par_chunks_mut(CHUNK).enumerate().map(part).collect();
         let mut gradient = DVector::zeros(self.design.unknowns());
         for part in parts {
-            gradient += part?;
+            let part = part.map_err(|(row, fault)| FitError::Outside { row, fault })?;
+            gradient += DVector::from_vec(part);
         }
         gradient += &self.prior.gradient;
         gradient -= &self.prior.normal * DVector::from_column_slice(values);
@@ -300,7 +287,7 @@ impl<'a> Rows<'a> {
     fn chi_square(&self, residuals: &[[f64; 3]]) -> (f64, usize) {
         let (mut chi_square, mut numbers) = (0.0, 0);
         for (i, residual) in residuals.iter().enumerate() {
-            let instrument = self.instrument(i);
+            let instrument = self.groups.instrument_of(i);
             let channels = instrument.sight.channels();
             for (r, u) in residual.iter().zip(&instrument.noise).take(channels) {
                 chi_square += self.weight(i) * (r / u).powi(2);
@@ -314,7 +301,7 @@ impl<'a> Rows<'a> {
 
 /// JᵀWJ of these readings and the priors; `weights` of the readings, empty for 1.
 pub fn normal_matrix(design: &Design, readings: &Readings, weights: &[f64]) -> DMatrix<f64> {
-    Rows { design, readings, weights, kept: Vec::new(), prior: design.prior() }.normal()
+    Rows::new(design, readings, weights).normal()
 }
 
 /// The unknowns from the readings; `weights` of the readings (robust losses), empty for 1.
@@ -410,15 +397,14 @@ pub fn by_rows(
     number: impl Fn(usize, usize, &[f64]) -> f64 + Sync,
 ) -> Vec<[f64; 3]> {
     let mut out = vec![[0.0; 3]; readings.len()];
-    let n = design.unknowns();
+    let (n, groups) = (design.unknowns(), Groups::new(design, readings));
     out.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, rows)| {
-        let mut slopes = vec![0.0; 3 * n];
-        for (k, row) in rows.iter_mut().enumerate() {
-            let i = chunk * CHUNK + k;
-            for c in 0..design.slopes(readings, i, &mut slopes) {
-                row[c] = number(i, c, &slopes[c * n..(c + 1) * n]);
+        let first = chunk * CHUNK;
+        groups.slopes(first..first + rows.len(), |i, slopes| {
+            for (c, slopes) in slopes.chunks_exact(n.max(1)).enumerate() {
+                rows[i - first][c] = number(i, c, slopes);
             }
-        }
+        });
     });
     out
 }

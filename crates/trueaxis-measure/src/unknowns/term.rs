@@ -71,7 +71,7 @@ impl Basis {
     pub fn value(self, q: f64, approach: f64) -> f64 {
         match self {
             Self::Constant => 1.0,
-            Self::Legendre { degree, middle, half } => legendre(degree, (q - middle) / half),
+            Self::Legendre { degree, middle, half } => legendre(degree, [(q - middle) / half])[0],
             Self::Cosine(order) => (f64::from(order) * q).cos(),
             Self::Sine(order) => (f64::from(order) * q).sin(),
             Self::Hat { at, step } => (1.0 - ((q - at) / step).abs()).max(0.0),
@@ -122,15 +122,21 @@ impl Basis {
     }
 }
 
-/// `(k + 1) P_{k+1} = (2k + 1) x P_k − k P_{k−1}` (Bonnet).
-fn legendre(degree: u32, x: f64) -> f64 {
-    let (mut before, mut here) = (1.0, x);
+/// Legendre's polynomial at N places.
+///
+/// ```text
+///     (k + 1) P_{k+1} = (2k + 1) x P_k − k P_{k−1}        (Bonnet)
+/// ```
+pub(super) fn legendre<const N: usize>(degree: u32, x: [f64; N]) -> [f64; N] {
+    let (mut before, mut here) = ([1.0; N], x);
     if degree == 0 {
-        return 1.0;
+        return before;
     }
     for k in 1..degree {
         let k = f64::from(k);
-        (before, here) = (here, ((2.0 * k + 1.0) * x * here - k * before) / (k + 1.0));
+        let (rise, fall) = ((2.0 * k + 1.0) / (k + 1.0), k / (k + 1.0));
+        let next = std::array::from_fn(|i| rise * x[i] * here[i] - fall * before[i]);
+        (before, here) = (here, next);
     }
     here
 }
@@ -417,7 +423,7 @@ mod tests {
     #[test]
     fn legendre_of_degree_two() {
         // P2(x) = (3x² − 1)/2: at 0.5: −0.125
-        assert!((legendre(2, 0.5) + 0.125).abs() < 1e-15);
+        assert!((legendre(2, [0.5])[0] + 0.125).abs() < 1e-15);
         assert_eq!(legendre_coefficients(2), [-0.5, 0.0, 1.5]);
     }
 

@@ -1,0 +1,254 @@
+//! Readings and slopes by groups of rows against those of one row at a time.
+
+mod library;
+
+use library::{bare, disk, poses, root, within};
+use nalgebra::DVector;
+use trueaxis_geometry::Vec3;
+use trueaxis_geometry::statistics::SplitMix64;
+use trueaxis_input::{Diagnostics, MeasuredValue};
+use trueaxis_machine::Machine;
+use trueaxis_machine::errors::{Component, ErrorKind, ErrorName};
+use trueaxis_machine::heat::Conditions;
+use trueaxis_machine::twist::Reference;
+use trueaxis_machine::{ErrorModel, Squareness, errors::Rotation};
+use trueaxis_measure::instruments::instrument::{SetupError, SetupUnknown};
+use trueaxis_measure::instruments::{MaterialCompensation, Motion};
+use trueaxis_measure::measure::instrument::Instrument;
+use trueaxis_measure::measure::{Kind, Readings};
+use trueaxis_measure::unknowns::design::Design;
+use trueaxis_measure::unknowns::fit::{FitError, fit, normal_matrix};
+use trueaxis_measure::unknowns::term::{Basis, Shape, Term};
+
+const MACHINES: [&str; 4] = ["lei-hsu-mill", "xkas2525", "nutating-head", "three-axis-mill"];
+
+/// A machine of the library with all that it states, and the same with a warm workpiece and warm scales.
+fn stated(name: &str) -> [Machine; 2] {
+    let path = root().join("machines").join(name).join("machine.toml");
+    let (machine, problems) = Machine::read(&disk(), &path);
+    let machine = machine.unwrap_or_else(|| panic!("{problems:?}"));
+    let machine = machine.with_model(ErrorModel::default());
+    let mut problems = Diagnostics::new();
+    let conditions = Conditions::typed("t", "workpiece=28", &mut problems).expect("sound");
+    let warm = machine.at(&conditions, &mut problems);
+    [machine.clone(), warm.unwrap_or(machine)]
+}
+
+/// Every kind of instrument, on the workpiece and on the bed, with everything unknown of its set-up.
+fn instruments(machine: &Machine) -> Vec<Instrument> {
+    let references = [Reference::Workpiece, Reference::Bed];
+    let all = Kind::all().flat_map(|kind| references.map(|reference| (kind, reference)));
+    let one = |(kind, reference): (Kind, Reference)| {
+        let mut one = Instrument::usual(kind, machine);
+        let known: Vec<SetupError> = one.unknowns.iter().map(|u| u.error).collect();
+        let more = (0..3).map(SetupError::ToolPoint).chain((0..3).map(SetupError::Drift));
+        let more = more.chain([SetupError::Scale]).filter(|error| !known.contains(error));
+        let unknown = |error| SetupUnknown { name: kind.unknown_name(error), error, prior_u: None };
+        one.unknowns.extend(more.map(unknown));
+        one.name = format!("{} {reference:?}", kind.name());
+        one.reference = reference;
+        one.reference_point_mm = Vec3::new(40.0, -70.0, 90.0);
+        one.direction = Vec3::new(0.36, 0.48, 0.8);
+        one.length_mm = 12.5;
+        one.noise = [1e-3, 2e-3, 5e-4];
+        if kind == Kind::LaserLine {
+            one.material = Some(MaterialCompensation {
+                expansion_per_k: MeasuredValue { value: 11.7e-6, u: None },
+                celsius: MeasuredValue { value: 23.0, u: None },
+                sensor: None,
+                datum_mm: Vec3::new(5.0, 6.0, 7.0),
+            });
+            one.unknowns.push(unknown(SetupError::Material));
+        }
+        one
+    };
+    all.map(one).collect()
+}
+
+/// Location errors and error motions of every axis by every kind of function.
+fn terms(machine: &Machine) -> Vec<Term> {
+    let name = |body, kind, component| ErrorName { body, kind, component };
+    let mut terms = Vec::new();
+    for body in machine.bodies() {
+        for component in Component::ALL {
+            terms.extend(Term::location(machine, name(body.name, ErrorKind::Location, component)));
+        }
+    }
+    for (i, axis) in machine.axes().iter().enumerate() {
+        let shape = if axis.name.is_rotary() {
+            "fourier 3 + reversal"
+        } else {
+            "polynomial 1-3 + reversal"
+        };
+        for (component, text) in
+            [(Component::X, shape), (Component::C, shape), (Component::B, "linear 3")]
+        {
+            let shape = Shape::parse(text).expect("a shape");
+            terms.extend(shape.terms(machine, name(axis.name, ErrorKind::Motion, component)));
+        }
+        let servo: [fn(f64) -> Basis; 3] = [
+            |sense| Basis::Lag { sense },
+            |sense| Basis::LostMotion { sense },
+            |sense| Basis::Friction { free_s: 0.2, sense },
+        ];
+        terms.extend(servo.into_iter().filter_map(|basis| Term::servo(machine, i, basis)));
+    }
+    let drift = Basis::Ramp { instrument: 2, from_s: 500.0, over_s: 4000.0 };
+    let wandering = terms[0];
+    terms.push(Term { basis: drift, axis: None, ..wandering });
+    terms.sort_by_key(|term| term.index);
+    terms
+}
+
+/// Rows of all instruments, mixed; the axes come from both sides and move.
+fn rows(random: &mut SplitMix64, machine: &Machine, instruments: usize) -> Readings {
+    let mut all = poses(random, machine, 613);
+    for i in 0..all.len() {
+        all.instruments[i] = (random.unit() * instruments as f64) as u32;
+        let direction = Vec3::new(within(random, 1.0), within(random, 1.0), 0.3);
+        all.directions[i] = direction.normalize();
+        all.approaches[i] =
+            std::array::from_fn(|_| [-1.0, 0.0, 1.0][(random.unit() * 3.0) as usize]);
+        all.motions[i] = Motion {
+            feed_mm_per_s: Some(20.0),
+            speed: std::array::from_fn(|_| within(random, 5.0)),
+            turned: std::array::from_fn(|_| [-1.0, 0.0, 1.0][(random.unit() * 3.0) as usize]),
+            turned_ago_s: std::array::from_fn(|_| random.unit()),
+        };
+    }
+    all
+}
+
+fn design_of(machine: &Machine) -> Design {
+    Design::new(machine, terms(machine), instruments(machine))
+}
+
+/// The slopes of each row in units of the noise, as one row after the other gives them.
+fn judged(design: &Design, readings: &Readings) -> Vec<f64> {
+    let (n, mut all) = (design.unknowns(), Vec::new());
+    let mut slopes = vec![0.0; 3 * n];
+    for i in 0..readings.len() {
+        let noise = design.instruments[readings.instruments[i] as usize].noise;
+        let channels = design.slopes(readings, i, &mut slopes);
+        for (column, u) in slopes.chunks_exact(n).zip(noise).take(channels) {
+            all.extend(column.iter().map(|slope| slope / u));
+        }
+    }
+    all
+}
+
+#[test]
+fn law_slopes_by_groups_are_those_of_each_row() {
+    for name in MACHINES {
+        for machine in stated(name) {
+            let design = design_of(&machine);
+            let readings = rows(&mut SplitMix64::new(21), &machine, design.instruments.len());
+            let columns = design.columns(&readings, 0..readings.len());
+            let judge = judged(&design, &readings);
+            assert_eq!(columns.len(), judge.len());
+            let largest = judge.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+            for (found, due) in columns.iter().zip(&judge) {
+                // Of a point 10 m away the last digit is 2·10⁻¹² mm.
+                let off = (found - due).abs();
+                assert!(off < 1e-13 * largest + 1e-12 * due.abs(), "{name}: {found} {due}");
+            }
+        }
+    }
+}
+
+#[test]
+fn law_residuals_by_groups_are_those_of_each_row() {
+    for name in MACHINES {
+        for machine in stated(name) {
+            let design = design_of(&machine);
+            let mut random = SplitMix64::new(22);
+            let mut readings = rows(&mut random, &machine, design.instruments.len());
+            let size = |k: usize| match design.unknown(k) {
+                Some(u) if u.is_angle() => 3e-5,
+                Some(u) if u.is_share() || u.is_time() => 1e-5,
+                _ => 0.01,
+            };
+            let truth: Vec<f64> =
+                (0..design.unknowns()).map(|k| within(&mut random, size(k))).collect();
+            for i in 0..readings.len() {
+                let read = design.read(&readings, i, &truth).expect("within the tables");
+                readings.values[i] = read.map(|v| v + within(&mut random, 1e-3));
+            }
+            let found = fit(&design, &readings, &[]).expect("a fit");
+            let n = design.unknowns();
+            let mut along = DVector::zeros(n);
+            let mut slopes = vec![0.0; 3 * n];
+            for i in 0..readings.len() {
+                let read = design.read(&readings, i, &found.values).expect("within the tables");
+                let channels = design.slopes(&readings, i, &mut slopes);
+                let noise = design.instruments[readings.instruments[i] as usize].noise;
+                for c in 0..channels {
+                    let due = readings.values[i][c] - read[c];
+                    let off = (found.residuals[i][c] - due).abs();
+                    assert!(off < 1e-9, "{name}, row {i}: {} {due}", found.residuals[i][c]);
+                    for k in 0..n {
+                        along[k] += slopes[c * n + k] * due / noise[c].powi(2);
+                    }
+                }
+            }
+            // One more step is no share of a standard uncertainty.
+            let step = found.sight.solve(&along);
+            let length = step.dot(&along).abs().sqrt();
+            assert!(length < 1e-6, "{name}: {length} after {} passes", found.passes);
+        }
+    }
+}
+
+/// The bits of a row do not depend on the order of the rows.
+#[test]
+fn law_a_row_has_the_same_slopes_among_any_others() {
+    let [machine, _] = stated("lei-hsu-mill");
+    let design = design_of(&machine);
+    let readings = rows(&mut SplitMix64::new(23), &machine, design.instruments.len());
+    let mut backwards = Readings::default();
+    for i in (0..readings.len()).rev() {
+        backwards.push(readings.row(i));
+    }
+    let all = design.columns(&readings, 0..readings.len());
+    let turned = design.columns(&backwards, 0..readings.len());
+    let channels =
+        |of: &Readings, i: usize| design.instruments[of.instruments[i] as usize].sight.channels();
+    let (mut start, mut end) = (0, turned.ncols());
+    for i in 0..readings.len() {
+        let count = channels(&readings, i);
+        end -= count;
+        assert_eq!(all.columns(start, count), turned.columns(end, count), "row {i}");
+        start += count;
+    }
+}
+
+/// The models that have no groups give the same as before, row by row; the first row outside a table is named whichever
+/// instrument reads it.
+#[test]
+fn law_what_the_groups_do_not_cover_is_computed_row_by_row() {
+    let [machine, _] = stated("lei-hsu-mill");
+    for model in [
+        ErrorModel { rotation: Rotation::SmallAngle, ..ErrorModel::default() },
+        ErrorModel { squareness: Squareness::Direction, ..ErrorModel::default() },
+    ] {
+        let design = design_of(&machine.clone().with_model(model));
+        let readings = rows(&mut SplitMix64::new(24), &machine, design.instruments.len());
+        let columns = design.columns(&readings, 0..readings.len());
+        let off = columns.iter().zip(judged(&design, &readings)).map(|(a, b)| (a - b).abs());
+        assert!(off.fold(0.0, f64::max) < 1e-9);
+    }
+    let design = design_of(&bare("lei-hsu-mill"));
+    let mut readings = rows(&mut SplitMix64::new(25), &machine, design.instruments.len());
+    // Far turns are no reason to leave a row out: the scalar form computes them.
+    readings.commands[100][0] += 2e5;
+    let normal = normal_matrix(&design, &readings, &[]);
+    assert!(normal.iter().all(|v| v.is_finite()));
+    readings.instruments[300] = 29;
+    readings.instruments[301] = 0;
+    readings.commands[300][3] = f64::NAN;
+    readings.commands[301][3] = 1e13;
+    match fit(&design, &readings, &[]) {
+        Err(FitError::Outside { row, .. }) => assert_eq!(row, 300),
+        other => panic!("{:?}", other.map(|fit| fit.passes)),
+    }
+}
