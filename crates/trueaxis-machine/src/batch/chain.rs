@@ -233,7 +233,7 @@ impl CompiledChain {
             }
             #[cfg(target_arch = "x86_64")]
             InstructionSet::Avx2 => super::x86::chain_avx2(self, commands, errors, stations, tool),
-            _ => by::<4, Plain<4>>(self, commands, errors, stations, tool),
+            _ => by::<8, Plain<8>>(self, commands, errors, stations, tool),
         }
     }
 }
@@ -444,7 +444,7 @@ pub fn sines_and_cosines(angles: &Group) -> [Group; 2] {
         InstructionSet::Avx512 => super::x86::sines_avx512(angles, &mut out),
         #[cfg(target_arch = "x86_64")]
         InstructionSet::Avx2 => super::x86::sines_avx2(angles, &mut out),
-        _ => sines_by::<4, Plain<4>>(angles, &mut out),
+        _ => sines_by::<8, Plain<8>>(angles, &mut out),
     }
     let [sines, cosines] = &mut out;
     for ((angle, sine), cosine) in angles.iter().zip(sines).zip(cosines) {

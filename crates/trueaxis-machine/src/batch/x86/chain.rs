@@ -14,7 +14,7 @@ pub(in crate::batch) fn chain_avx2(
     tool: &mut Frames,
 ) -> u32 {
     if !has_avx2() {
-        return chain::by::<4, Plain<4>>(chain, commands, errors, stations, tool);
+        return chain::by::<8, Plain<8>>(chain, commands, errors, stations, tool);
     }
     // SAFETY: the processor has AVX2 and FMA; asked three lines above.
     unsafe { chain_with_avx2(chain, commands, errors, stations, tool) }
@@ -29,7 +29,7 @@ pub(in crate::batch) fn chain_avx512(
     tool: &mut Frames,
 ) -> u32 {
     if !has_avx512() {
-        return chain::by::<4, Plain<4>>(chain, commands, errors, stations, tool);
+        return chain::by::<8, Plain<8>>(chain, commands, errors, stations, tool);
     }
     // SAFETY: the processor has AVX2, FMA and AVX-512F; asked three lines above.
     unsafe { chain_with_avx512(chain, commands, errors, stations, tool) }
@@ -60,7 +60,7 @@ fn chain_with_avx512(
 /// Sines and cosines; for a processor with AVX2, else the plain way.
 pub(in crate::batch) fn sines_avx2(angles: &Group, out: &mut [Group; 2]) {
     if !has_avx2() {
-        return chain::sines_by::<4, Plain<4>>(angles, out);
+        return chain::sines_by::<8, Plain<8>>(angles, out);
     }
     // SAFETY: the processor has AVX2 and FMA; asked three lines above.
     unsafe { sines_with_avx2(angles, out) }
@@ -69,7 +69,7 @@ pub(in crate::batch) fn sines_avx2(angles: &Group, out: &mut [Group; 2]) {
 /// The same for a processor with AVX-512.
 pub(in crate::batch) fn sines_avx512(angles: &Group, out: &mut [Group; 2]) {
     if !has_avx512() {
-        return chain::sines_by::<4, Plain<4>>(angles, out);
+        return chain::sines_by::<8, Plain<8>>(angles, out);
     }
     // SAFETY: the processor has AVX2, FMA and AVX-512F; asked three lines above.
     unsafe { sines_with_avx512(angles, out) }
