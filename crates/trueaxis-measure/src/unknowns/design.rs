@@ -4,7 +4,6 @@
 //!     J = ∂reading/∂unknown at the nominal machine;   row = (f·v + m·ω) φ      docs/model.md eq. 107
 //! ```
 
-use super::groups::Groups;
 use super::known::Known;
 use super::term::{Basis, Term};
 use crate::instruments::instrument::{SetupUnknown, Sight, View};
@@ -292,9 +291,24 @@ impl Design {
     }
 
     /// The rows of these readings in units of their noise, one *column* each: Jᵀ/u.
+    ///
+    /// Row by row: a plan chooses between poses of equal worth by the last digits of these numbers, and those of vector
+    /// instructions depend on the processor.
     pub fn columns(&self, readings: &Readings, range: std::ops::Range<usize>) -> DMatrix<f64> {
-        let (mut values, n) = (Vec::new(), self.unknowns());
-        Groups::new(self, readings).columns(range, &mut values);
+        let n = self.unknowns();
+        let channels =
+            |i: usize| self.instruments[readings.instruments[i] as usize].sight.channels();
+        let mut values = vec![0.0; n * range.clone().map(channels).sum::<usize>()];
+        let mut next = 0;
+        for i in range {
+            let noise = self.instruments[readings.instruments[i] as usize].noise;
+            let end = next + n * channels(i);
+            self.slopes(readings, i, &mut values[next..end]);
+            for (row, u) in values[next..end].chunks_exact_mut(n.max(1)).zip(noise) {
+                row.iter_mut().for_each(|v| *v /= u);
+            }
+            next = end;
+        }
         let m = values.len() / n.max(1);
         DMatrix::from_vec(n, m, values)
     }

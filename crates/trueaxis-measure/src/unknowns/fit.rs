@@ -203,13 +203,16 @@ impl<'a> Rows<'a> {
         self.weights.get(i).copied().unwrap_or(1.0)
     }
 
-    /// JᵀWJ with the priors.
-    fn normal(&self) -> DMatrix<f64> {
+    /// JᵀWJ with the priors; `columns` makes Jᵀ/u of rows.
+    fn normal(&self, columns: impl Fn(Range<usize>, &mut Vec<f64>) + Sync) -> DMatrix<f64> {
         let n = self.design.unknowns();
         let mut normal = DMatrix::zeros(n, n);
         let chunks: Vec<usize> = (0..self.readings.len().div_ceil(CHUNK)).collect();
         for batch in chunks.chunks(BATCH) {
-            let part = |room: &mut Vec<f64>, chunk: &usize| self.squared(*chunk, room);
+            let part = |room: &mut Vec<f64>, chunk: &usize| {
+                columns(self.range(*chunk), room);
+                self.squared(*chunk, room)
+            };
             for part in batch.par_iter().map_init(Vec::new, part).collect::<Vec<_>>() {
                 normal += part;
             }
@@ -217,10 +220,9 @@ impl<'a> Rows<'a> {
         normal + &self.prior.normal
     }
 
-    /// What a chunk adds to JᵀWJ.
-    fn squared(&self, chunk: usize, columns: &mut Vec<f64>) -> DMatrix<f64> {
+    /// What a chunk adds to JᵀWJ, from its Jᵀ/u.
+    fn squared(&self, chunk: usize, columns: &mut [f64]) -> DMatrix<f64> {
         let n = self.design.unknowns();
-        self.groups.columns(self.range(chunk), columns);
         if !self.weights.is_empty() {
             let mut columns = columns.chunks_exact_mut(n.max(1));
             for i in self.range(chunk) {
@@ -299,9 +301,12 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// JᵀWJ of these readings and the priors; `weights` of the readings, empty for 1.
+/// JᵀWJ of these readings and the priors; `weights` of the readings, empty for 1. As [`Design::columns`] row by row.
 pub fn normal_matrix(design: &Design, readings: &Readings, weights: &[f64]) -> DMatrix<f64> {
-    Rows::new(design, readings, weights).normal()
+    Rows::new(design, readings, weights).normal(|rows, columns| {
+        columns.clear();
+        columns.extend_from_slice(design.columns(readings, rows).as_slice());
+    })
 }
 
 /// The unknowns from the readings; `weights` of the readings (robust losses), empty for 1.
@@ -350,7 +355,8 @@ pub fn fit_by(
         return Err(FitError::NoUnknowns);
     }
     let rows = Rows::new(design, readings, weights);
-    let sight = Observability::with_threshold(&rows.normal(), rule.threshold);
+    let normal = rows.normal(|range, columns| rows.groups.columns(range, columns));
+    let sight = Observability::with_threshold(&normal, rule.threshold);
     let mut values = DVector::zeros(design.unknowns());
     let mut residuals = vec![[0.0; 3]; readings.len()];
     let mut before = 0.0;

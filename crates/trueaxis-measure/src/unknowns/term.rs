@@ -134,8 +134,8 @@ pub(super) fn legendre<const N: usize>(degree: u32, x: [f64; N]) -> [f64; N] {
     }
     for k in 1..degree {
         let k = f64::from(k);
-        let (rise, fall) = ((2.0 * k + 1.0) / (k + 1.0), k / (k + 1.0));
-        let next = std::array::from_fn(|i| rise * x[i] * here[i] - fall * before[i]);
+        let next =
+            std::array::from_fn(|i| ((2.0 * k + 1.0) * x[i] * here[i] - k * before[i]) / (k + 1.0));
         (before, here) = (here, next);
     }
     here
