@@ -292,8 +292,7 @@ impl Design {
 
     /// The rows of these readings in units of their noise, one *column* each: Jᵀ/u.
     ///
-    /// Row by row: a plan chooses between poses of equal worth by the last digits of these numbers, and those of vector
-    /// instructions depend on the processor.
+    /// Row by row: a plan chooses between poses of equal worth by the last digits of these numbers.
     pub fn columns(&self, readings: &Readings, range: std::ops::Range<usize>) -> DMatrix<f64> {
         let n = self.unknowns();
         let channels =

@@ -13,7 +13,7 @@ use super::design::Design;
 use super::groups::Groups;
 use super::known::Known;
 use crate::instruments::Readings;
-use nalgebra::{DMatrix, DMatrixView, DVector, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rayon::prelude::*;
 use std::ops::Range;
 use trueaxis_machine::chain::CommandFault;
@@ -203,39 +203,34 @@ impl<'a> Rows<'a> {
         self.weights.get(i).copied().unwrap_or(1.0)
     }
 
-    /// JᵀWJ with the priors; `columns` makes Jᵀ/u of rows.
-    fn normal(&self, columns: impl Fn(Range<usize>, &mut Vec<f64>) + Sync) -> DMatrix<f64> {
+    /// JᵀWJ with the priors. Row by row, as [`Design::columns`]: what cannot be observed, and which poses a plan takes, depends on
+    /// its last digits.
+    fn normal(&self) -> DMatrix<f64> {
         let n = self.design.unknowns();
         let mut normal = DMatrix::zeros(n, n);
         let chunks: Vec<usize> = (0..self.readings.len().div_ceil(CHUNK)).collect();
         for batch in chunks.chunks(BATCH) {
-            let part = |room: &mut Vec<f64>, chunk: &usize| {
-                columns(self.range(*chunk), room);
-                self.squared(*chunk, room)
-            };
-            for part in batch.par_iter().map_init(Vec::new, part).collect::<Vec<_>>() {
+            let part = |chunk: &usize| self.squared(*chunk);
+            for part in batch.par_iter().map(part).collect::<Vec<_>>() {
                 normal += part;
             }
         }
         normal + &self.prior.normal
     }
 
-    /// What a chunk adds to JᵀWJ, from its Jᵀ/u.
-    fn squared(&self, chunk: usize, columns: &mut [f64]) -> DMatrix<f64> {
-        let n = self.design.unknowns();
+    /// What a chunk adds to JᵀWJ.
+    fn squared(&self, chunk: usize) -> DMatrix<f64> {
+        let mut columns = self.design.columns(self.readings, self.range(chunk));
         if !self.weights.is_empty() {
-            let mut columns = columns.chunks_exact_mut(n.max(1));
+            let mut next = 0;
             for i in self.range(chunk) {
-                let (root, channels) = (self.weight(i).sqrt(), self.groups.instrument_of(i));
-                for column in columns.by_ref().take(channels.sight.channels()) {
-                    column.iter_mut().for_each(|slope| *slope *= root);
+                for _ in 0..self.groups.instrument_of(i).sight.channels() {
+                    columns.column_mut(next).scale_mut(self.weights[i].sqrt());
+                    next += 1;
                 }
             }
         }
-        let m = columns.len() / n.max(1);
-        let by_columns = DMatrixView::from_slice(columns, n, m);
-        // The same numbers by rows: no second matrix.
-        by_columns * DMatrixView::from_slice_with_strides(columns, m, n, n, 1)
+        &columns * columns.transpose()
     }
 
     /// Residuals at these values, and `JᵀW r`.
@@ -301,12 +296,9 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// JᵀWJ of these readings and the priors; `weights` of the readings, empty for 1. As [`Design::columns`] row by row.
+/// JᵀWJ of these readings and the priors; `weights` of the readings, empty for 1.
 pub fn normal_matrix(design: &Design, readings: &Readings, weights: &[f64]) -> DMatrix<f64> {
-    Rows::new(design, readings, weights).normal(|rows, columns| {
-        columns.clear();
-        columns.extend_from_slice(design.columns(readings, rows).as_slice());
-    })
+    Rows::new(design, readings, weights).normal()
 }
 
 /// The unknowns from the readings; `weights` of the readings (robust losses), empty for 1.
@@ -355,8 +347,7 @@ pub fn fit_by(
         return Err(FitError::NoUnknowns);
     }
     let rows = Rows::new(design, readings, weights);
-    let normal = rows.normal(|range, columns| rows.groups.columns(range, columns));
-    let sight = Observability::with_threshold(&normal, rule.threshold);
+    let sight = Observability::with_threshold(&rows.normal(), rule.threshold);
     let mut values = DVector::zeros(design.unknowns());
     let mut residuals = vec![[0.0; 3]; readings.len()];
     let mut before = 0.0;
