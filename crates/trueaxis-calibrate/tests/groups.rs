@@ -2,15 +2,17 @@
 
 mod library;
 
-use library::{bare, disk, poses, root, within};
+use library::{bare, poses, root, within};
 use nalgebra::DVector;
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::sync::Mutex;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::statistics::SplitMix64;
 use trueaxis_input::{Diagnostics, MeasuredValue};
 use trueaxis_machine::Machine;
 use trueaxis_machine::errors::{Component, ErrorKind, ErrorName};
+use trueaxis_machine::file::Tables;
 use trueaxis_machine::heat::Conditions;
 use trueaxis_machine::twist::Reference;
 use trueaxis_machine::{ErrorModel, Squareness, errors::Rotation};
@@ -24,16 +26,46 @@ use trueaxis_measure::unknowns::term::{Basis, Shape, Term};
 
 const MACHINES: [&str; 4] = ["lei-hsu-mill", "xkas2525", "nutating-head", "three-axis-mill"];
 
-/// A machine of the library with all that it states, and the same with a warm workpiece and warm scales.
+/// Heat that moves the tool, tilts Z and lengthens the scale of X, with and without the position.
+const HEAT: &str = r#"
+[scale.X]
+expansion = "10 um/(m K)"
+fixed_point = "-100 mm"
+sensors = { x = "0 mm" }
+[heat.EZ0t]
+spindle = "1.5 um/K"
+[heat.EA0Z]
+column = "2 urad/K"
+"#;
+
+/// A machine of the library with all that it states, and the same with workpiece, scale and structure warm.
 fn stated(name: &str) -> [Machine; 2] {
     let path = root().join("machines").join(name).join("machine.toml");
-    let (machine, problems) = Machine::read(&disk(), &path);
-    let machine = machine.unwrap_or_else(|| panic!("{problems:?}"));
+    let text = std::fs::read_to_string(&path).expect("a machine of the library");
+    let grows = "[workpiece]\nexpansion = \"23 um/(m K)\"\nfixed_point = \"5 6 7 mm\"";
+    let text = match text.contains("\n[workpiece]\n") {
+        true => text.replacen("[workpiece]", grows, 1) + HEAT,
+        false => format!("{text}\n{grows}\n{HEAT}"),
+    };
+    let (machine, problems) = Machine::check("machine.toml", &text, &Beside(&path));
+    let machine = machine.unwrap_or_else(|| panic!("{name}: {problems:?}"));
     let machine = machine.with_model(ErrorModel::default());
     let mut problems = Diagnostics::new();
-    let conditions = Conditions::typed("t", "workpiece=28", &mut problems).expect("sound");
+    let text = "x=25 spindle=40 column=25 workpiece=28";
+    let conditions = Conditions::typed("t", text, &mut problems).expect("sound");
     let warm = machine.at(&conditions, &mut problems);
-    [machine.clone(), warm.unwrap_or(machine)]
+    let warm = warm.unwrap_or_else(|| panic!("{name}: {problems:?}"));
+    assert!(warm.growth().is_some() && warm.bodies().iter().any(|b| b.thermal.len() == 1));
+    [machine, warm]
+}
+
+/// The tables of a machine stand in its folder.
+struct Beside<'a>(&'a Path);
+
+impl Tables for Beside<'_> {
+    fn text(&self, name: &str) -> Result<String, String> {
+        std::fs::read_to_string(self.0.with_file_name(name)).map_err(|error| error.to_string())
+    }
 }
 
 /// Every kind of instrument, on the workpiece and on the bed, with everything unknown of its set-up.

@@ -329,10 +329,12 @@ impl<'a> Groups<'a> {
         }
     }
 
-    /// The tool as a workpiece that is not at 20 °C sees it; light does not see its growth.
+    /// The tool as a workpiece that is not at 20 °C sees it; neither light nor the bed sees its growth.
     fn grown(&self, instrument: &Instrument, i: usize, tool: Link) -> Link {
+        let sees_growth =
+            instrument.reference == Reference::Workpiece && !instrument.kind.measures_with_light();
         match self.design.machine.growth() {
-            Some(growth) if !instrument.kind.measures_with_light() => {
+            Some(growth) if sees_growth => {
                 let tip_mm = self.design.machine.nominal_tip_mm(&self.readings.commands[i]);
                 Link::new(*tool.linear(), tool.shift_mm() - growth.at(tip_mm))
             }
