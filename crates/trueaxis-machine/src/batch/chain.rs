@@ -8,11 +8,12 @@
 
 use super::groups::{lanes, put};
 use super::kernel::error_turn;
+use super::steps::Joint;
 use super::{InstructionSet, LARGEST_TURN_RAD};
 use crate::axis::{AxisKind, MAX_AXES};
 use crate::chain::{Link, Machine, Step as Rule};
 use crate::errors::{ErrorKind, Rotation};
-use crate::lanes::vectors::turn_pair_about;
+use crate::lanes::vectors::{rotation, splat3, splat33, turn_pair_about};
 use crate::lanes::{Lanes, Plain, sine_cosine};
 use crate::twist::Reference;
 use trueaxis_geometry::{Mat3, Vec3};
@@ -93,10 +94,7 @@ pub struct CompiledChain {
 enum Step {
     Shift([f64; 3]),
     Place { columns: [[f64; 3]; 3], shift_mm: [f64; 3] },
-    Slide { axis: usize, per_unit: [f64; 3] },
-    SlideAlong { axis: usize, along: usize, per_unit: f64 },
-    TurnAbout { axis: usize, about: usize, sense: f64 },
-    Turn { axis: usize, direction: [f64; 3], sense: f64 },
+    Joint(Joint),
     Errors { station: usize, against: bool },
 }
 
@@ -158,7 +156,8 @@ impl CompiledChain {
             Rule::Joint => {
                 let index = machine.bodies()[i].axis?;
                 self.flush(ahead);
-                self.steps.push(joint(machine, index, if against { -1.0 } else { 1.0 }));
+                let way = if against { -1.0 } else { 1.0 };
+                self.steps.push(Step::Joint(Joint::of(machine, index, way)));
                 return Some(());
             }
         };
@@ -226,34 +225,14 @@ impl CompiledChain {
         stations: &mut [Frames],
         tool: &mut Frames,
     ) -> u32 {
+        let walk = Walk { chain: self, commands, errors };
         match set {
             #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx512 => {
-                super::x86::chain_avx512(self, commands, errors, stations, tool)
-            }
+            InstructionSet::Avx512 => super::x86::chain_avx512(walk, stations, tool),
             #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 => super::x86::chain_avx2(self, commands, errors, stations, tool),
-            _ => by::<8, Plain<8>>(self, commands, errors, stations, tool),
+            InstructionSet::Avx2 => super::x86::chain_avx2(walk, stations, tool),
+            _ => by::<8, Plain<8>>(walk, stations, tool),
         }
-    }
-}
-
-fn joint(machine: &Machine, index: usize, way: f64) -> Step {
-    let axis = &machine.axes()[index];
-    let (direction, sense) = (axis.direction, axis.sense * way);
-    // A direction along a machine axis has one component, ±1.
-    let along = (0..3).find(|&k| direction[k].abs() == 1.0 && direction.norm_squared() == 1.0);
-    match (axis.kind, along) {
-        (AxisKind::Linear, Some(along)) => {
-            Step::SlideAlong { axis: index, along, per_unit: sense * direction[along] }
-        }
-        (AxisKind::Linear, None) => {
-            Step::Slide { axis: index, per_unit: (direction * sense).into() }
-        }
-        (AxisKind::Rotary, Some(about)) => {
-            Step::TurnAbout { axis: index, about, sense: sense * direction[about] }
-        }
-        (AxisKind::Rotary, None) => Step::Turn { axis: index, direction: direction.into(), sense },
     }
 }
 
@@ -264,12 +243,19 @@ struct State<L> {
     shift: [L; 3],
 }
 
+/// What a walk through the chain is given.
+#[derive(Clone, Copy)]
+pub(super) struct Walk<'a> {
+    chain: &'a CompiledChain,
+    commands: &'a [Group; MAX_AXES],
+    /// Of each station; none at all where only the nominal chain counts.
+    errors: &'a [[Group; 6]],
+}
+
 /// W commands at a time.
 #[inline(always)]
 pub(super) fn by<const W: usize, L: Lanes<W>>(
-    chain: &CompiledChain,
-    commands: &[Group; MAX_AXES],
-    errors: &[[Group; 6]],
+    Walk { chain, commands, errors }: Walk<'_>,
     stations: &mut [Frames],
     tool: &mut Frames,
 ) -> u32 {
@@ -307,19 +293,18 @@ fn passed<const W: usize, L: Lanes<W>>(
 ) -> u32 {
     match step {
         Step::Shift(shift_mm) => {
-            state.shift = moved(state.shift, &state.columns, splat(shift_mm));
+            state.shift = moved(state.shift, &state.columns, splat3(shift_mm));
         }
         Step::Place { columns, shift_mm } => {
-            state.shift = moved(state.shift, &state.columns, splat(shift_mm));
-            let by = [splat(&columns[0]), splat(&columns[1]), splat(&columns[2])];
-            state.columns = turned(&state.columns, &by);
+            state.shift = moved(state.shift, &state.columns, splat3(shift_mm));
+            state.columns = turned(&state.columns, &splat33(columns));
         }
-        Step::Slide { axis, per_unit } => {
+        Step::Joint(Joint::Slide { axis, per_unit }) => {
             let q: L = lanes(&commands[*axis], at);
-            let [x, y, z] = splat(per_unit);
+            let [x, y, z] = splat3(per_unit);
             state.shift = moved(state.shift, &state.columns, [q * x, q * y, q * z]);
         }
-        Step::SlideAlong { axis, along, per_unit } => {
+        Step::Joint(Joint::SlideAlong { axis, along, per_unit }) => {
             let by = lanes::<W, GROUP, L>(&commands[*axis], at) * L::splat(*per_unit);
             // Written out: an index known only at run time would put the columns into memory.
             let column = match along {
@@ -329,14 +314,13 @@ fn passed<const W: usize, L: Lanes<W>>(
             };
             state.shift = plus(state.shift, by, column);
         }
-        Step::TurnAbout { axis, about, sense } => {
+        Step::Joint(Joint::TurnAbout { axis, about, sense }) => {
             let (sin, cos) = sine_cosine(lanes::<W, GROUP, L>(&commands[*axis], at));
             turn_columns_about(&mut state.columns, *about, sin * L::splat(*sense), cos);
         }
-        Step::Turn { axis, direction, sense } => {
+        Step::Joint(Joint::Turn { axis, direction, sense }) => {
             let (sin, cos) = sine_cosine(lanes::<W, GROUP, L>(&commands[*axis], at));
-            let [x, y, z] =
-                crate::lanes::vectors::rotation(splat(direction), sin * L::splat(*sense), cos);
+            let [x, y, z] = rotation(splat3(direction), sin * L::splat(*sense), cos);
             // By columns.
             let by = [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]];
             state.columns = turned(&state.columns, &by);
@@ -419,11 +403,6 @@ fn turn_columns_about<const W: usize, L: Lanes<W>>(
     turn_pair_about(&mut rows[2], about, back, cos);
     let [x, y, z] = rows;
     *columns = [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]];
-}
-
-#[inline(always)]
-fn splat<const W: usize, L: Lanes<W>>(v: &[f64; 3]) -> [L; 3] {
-    [L::splat(v[0]), L::splat(v[1]), L::splat(v[2])]
 }
 
 #[inline(always)]

@@ -7,7 +7,7 @@ use super::columns::DeviationColumns;
 use super::lanes::PoseLanes;
 use super::motion::{General, GeneralCurve, Motion};
 use super::pieces::Knots;
-use super::steps::Step;
+use super::steps::{Joint, Step};
 use super::{BatchError, Inputs, Job, Plan};
 use crate::lanes::vectors::{
     difference, product, rotation, slide, slide_along, splat3, splat33, sum, turn_pair_about,
@@ -145,20 +145,20 @@ pub(super) fn poses<const W: usize, L: PoseLanes<W>>(
                 outside |= unknown;
                 move_by(&mut state, errors, motion.turns, *against);
             }
-            Step::SlideAlong { axis, along, per_unit } => {
+            Step::Joint(Joint::SlideAlong { axis, along, per_unit }) => {
                 let q = lanes_at::<W, L>(inputs.positions[*axis], at);
                 slide_along(&mut state.tip, *along, q, L::splat(*per_unit));
             }
-            Step::Slide { axis, per_unit } => {
+            Step::Joint(Joint::Slide { axis, per_unit }) => {
                 let q = lanes_at::<W, L>(inputs.positions[*axis], at);
                 slide(&mut state.tip, &splat3(per_unit), q);
             }
-            Step::TurnAbout { axis, about, sense } => {
+            Step::Joint(Joint::TurnAbout { axis, about, sense }) => {
                 let q = lanes_at::<W, L>(inputs.positions[*axis], at);
                 let (sin, cos) = sine_cosine(q);
                 turn_about(&mut state, *about, sin * L::splat(*sense), cos);
             }
-            Step::Turn { axis, direction, sense } => {
+            Step::Joint(Joint::Turn { axis, direction, sense }) => {
                 let q = lanes_at::<W, L>(inputs.positions[*axis], at);
                 let (sin, cos) = sine_cosine(q);
                 let sin = sin * L::splat(*sense);

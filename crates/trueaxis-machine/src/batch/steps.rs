@@ -16,6 +16,13 @@ pub(super) enum Step {
     Shift { shift_mm: [f64; 3] },
     /// The error motions of an axis; `against` towards the workpiece, where they are inverted.
     Motion { motion: usize, against: bool },
+    /// The nominal motion of an axis.
+    Joint(Joint),
+}
+
+/// The nominal motion of an axis, or its inverse.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Joint {
     /// A linear axis along a machine axis: `p[along] ← p[along] + q·per_unit`.
     SlideAlong { axis: usize, along: usize, per_unit: f64 },
     /// A linear axis in any direction.
@@ -24,6 +31,30 @@ pub(super) enum Step {
     TurnAbout { axis: usize, about: usize, sense: f64 },
     /// A rotary axis about any direction, by `q·sense`.
     Turn { axis: usize, direction: [f64; 3], sense: f64 },
+}
+
+impl Joint {
+    /// The motion of an axis times `way`: 1, or −1 for its inverse.
+    pub(super) fn of(machine: &Machine, index: usize, way: f64) -> Self {
+        let axis = &machine.axes()[index];
+        let (direction, sense) = (axis.direction, axis.sense * way);
+        // A direction along a machine axis has one component, ±1.
+        let along = (0..3).find(|&k| direction[k].abs() == 1.0 && direction.norm_squared() == 1.0);
+        match (axis.kind, along) {
+            (AxisKind::Linear, Some(along)) => {
+                Self::SlideAlong { axis: index, along, per_unit: sense * direction[along] }
+            }
+            (AxisKind::Linear, None) => {
+                Self::Slide { axis: index, per_unit: (direction * sense).into() }
+            }
+            (AxisKind::Rotary, Some(about)) => {
+                Self::TurnAbout { axis: index, about, sense: sense * direction[about] }
+            }
+            (AxisKind::Rotary, None) => {
+                Self::Turn { axis: index, direction: direction.into(), sense }
+            }
+        }
+    }
 }
 
 /// The whole way.
@@ -152,25 +183,7 @@ impl Path {
 
     fn joint(&mut self, machine: &Machine, index: usize, way: f64) {
         self.flush();
-        let axis = &machine.axes()[index];
-        let direction = axis.direction;
-        let sense = axis.sense * way;
-        // A direction along a machine axis has one component, ±1.
-        let along = (0..3).find(|&k| direction[k].abs() == 1.0 && direction.norm_squared() == 1.0);
-        self.list.push(match (axis.kind, along) {
-            (AxisKind::Linear, Some(along)) => {
-                Step::SlideAlong { axis: index, along, per_unit: sense * direction[along] }
-            }
-            (AxisKind::Linear, None) => {
-                Step::Slide { axis: index, per_unit: (direction * sense).into() }
-            }
-            (AxisKind::Rotary, Some(about)) => {
-                Step::TurnAbout { axis: index, about, sense: sense * direction[about] }
-            }
-            (AxisKind::Rotary, None) => {
-                Step::Turn { axis: index, direction: direction.into(), sense }
-            }
-        });
+        self.list.push(Step::Joint(Joint::of(machine, index, way)));
     }
 
     /// Writes the constants down: into the start as long as nothing has moved, else as steps.

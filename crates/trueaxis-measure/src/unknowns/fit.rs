@@ -12,7 +12,7 @@
 use super::design::Design;
 use super::groups::Groups;
 use super::known::Known;
-use crate::instruments::Readings;
+use crate::instruments::{Instrument, Readings};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -182,7 +182,6 @@ impl Observability {
 
 /// The readings by chunks.
 struct Rows<'a> {
-    groups: Groups<'a>,
     design: &'a Design,
     readings: &'a Readings,
     weights: &'a [f64],
@@ -191,8 +190,11 @@ struct Rows<'a> {
 
 impl<'a> Rows<'a> {
     fn new(design: &'a Design, readings: &'a Readings, weights: &'a [f64]) -> Self {
-        let (groups, prior) = (Groups::new(design, readings), design.prior());
-        Self { groups, design, readings, weights, prior }
+        Self { design, readings, weights, prior: design.prior() }
+    }
+
+    fn instrument(&self, i: usize) -> &Instrument {
+        &self.design.instruments[self.readings.instruments[i] as usize]
     }
 
     fn range(&self, chunk: usize) -> Range<usize> {
@@ -224,7 +226,7 @@ impl<'a> Rows<'a> {
         if !self.weights.is_empty() {
             let mut next = 0;
             for i in self.range(chunk) {
-                for _ in 0..self.groups.instrument_of(i).sight.channels() {
+                for _ in 0..self.instrument(i).sight.channels() {
                     columns.column_mut(next).scale_mut(self.weights[i].sqrt());
                     next += 1;
                 }
@@ -234,12 +236,17 @@ impl<'a> Rows<'a> {
     }
 
     /// Residuals at these values, and `JᵀW r`.
-    fn pass(&self, values: &[f64], residuals: &mut [[f64; 3]]) -> Result<DVector<f64>, FitError> {
+    fn pass(
+        &self,
+        groups: &Groups<'_>,
+        values: &[f64],
+        residuals: &mut [[f64; 3]],
+    ) -> Result<DVector<f64>, FitError> {
         let part = |(chunk, residuals): (usize, &mut [[f64; 3]])| {
             let range = self.range(chunk);
             let first = range.start;
             let compared = |i: usize, read: [f64; 3]| {
-                let (instrument, mut counts) = (self.groups.instrument_of(i), [0.0; 3]);
+                let (instrument, mut counts) = (self.instrument(i), [0.0; 3]);
                 for c in 0..instrument.sight.channels() {
                     let residual = self.readings.values[i][c] - read[c];
                     residuals[i - first][c] = residual;
@@ -247,7 +254,7 @@ impl<'a> Rows<'a> {
                 }
                 counts
             };
-            self.groups.pass(range, values, compared)
+            groups.pass(range, values, compared)
         };
         let parts: Vec<_> = residuals.par_chunks_mut(CHUNK).enumerate().map(part).collect();
         let mut gradient = DVector::zeros(self.design.unknowns());
@@ -284,7 +291,7 @@ impl<'a> Rows<'a> {
     fn chi_square(&self, residuals: &[[f64; 3]]) -> (f64, usize) {
         let (mut chi_square, mut numbers) = (0.0, 0);
         for (i, residual) in residuals.iter().enumerate() {
-            let instrument = self.groups.instrument_of(i);
+            let instrument = self.instrument(i);
             let channels = instrument.sight.channels();
             for (r, u) in residual.iter().zip(&instrument.noise).take(channels) {
                 chi_square += self.weight(i) * (r / u).powi(2);
@@ -346,13 +353,13 @@ pub fn fit_by(
     if design.unknowns() == 0 {
         return Err(FitError::NoUnknowns);
     }
-    let rows = Rows::new(design, readings, weights);
+    let (rows, groups) = (Rows::new(design, readings, weights), Groups::new(design, readings));
     let sight = Observability::with_threshold(&rows.normal(), rule.threshold);
     let mut values = DVector::zeros(design.unknowns());
     let mut residuals = vec![[0.0; 3]; readings.len()];
     let mut before = 0.0;
     for passes in 1..=MOST_PASSES {
-        let gradient = rows.pass(values.as_slice(), &mut residuals)?;
+        let gradient = rows.pass(&groups, values.as_slice(), &mut residuals)?;
         let step = sight.solve(&gradient);
         // In units of its own standard uncertainty.
         let length = step.dot(&gradient).abs().sqrt();

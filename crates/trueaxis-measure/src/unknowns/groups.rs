@@ -207,10 +207,6 @@ impl<'a> Groups<'a> {
         }
     }
 
-    pub(super) fn instrument_of(&self, i: usize) -> &'a Instrument {
-        &self.design.instruments[self.readings.instruments[i] as usize]
-    }
-
     fn slopes_group(&self, room: &mut Room, group: &[usize], row: &mut impl FnMut(usize, &[f64])) {
         let instrument = self.instrument(group);
         let n = self.design.unknowns();
@@ -343,7 +339,7 @@ impl<'a> Groups<'a> {
     }
 
     fn instrument(&self, group: &[usize]) -> &'a Instrument {
-        self.instrument_of(group[0])
+        &self.design.instruments[self.readings.instruments[group[0]] as usize]
     }
 
     fn chain(&self, instrument: &Instrument) -> Option<&CompiledChain> {

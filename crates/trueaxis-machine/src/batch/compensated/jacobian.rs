@@ -4,7 +4,7 @@
 use super::FastForm;
 use super::newton::Group;
 use crate::batch::kernel::lanes_at;
-use crate::batch::steps::Step;
+use crate::batch::steps::{Joint, Step};
 use crate::lanes::vectors::{
     cross, product, rotation, slide, slide_along, splat3, splat33, sum, turn_pair_about,
 };
@@ -37,19 +37,19 @@ pub(super) fn columns<const W: usize, L: Lanes<W>>(
                 all.wanted[0] = sum(all.wanted[0], splat3(shift_mm));
             }
             Step::Shift { shift_mm } => all.wanted[0] = sum(all.wanted[0], splat3(shift_mm)),
-            Step::SlideAlong { axis, along, per_unit } => {
+            Step::Joint(Joint::SlideAlong { axis, along, per_unit }) => {
                 let q = lanes_at::<W, L>(&group.positions[*axis], 0);
                 slide_along(&mut all.wanted[0], *along, q, L::splat(*per_unit));
                 let mut direction = [0.0; 3];
                 direction[*along] = *per_unit;
                 add_slide(&mut all, fast, *axis, &direction);
             }
-            Step::Slide { axis, per_unit } => {
+            Step::Joint(Joint::Slide { axis, per_unit }) => {
                 let q = lanes_at::<W, L>(&group.positions[*axis], 0);
                 slide(&mut all.wanted[0], &splat3(per_unit), q);
                 add_slide(&mut all, fast, *axis, per_unit);
             }
-            Step::TurnAbout { axis, about, sense } => {
+            Step::Joint(Joint::TurnAbout { axis, about, sense }) => {
                 let (sin, cos) = sine_cosine(lanes_at::<W, L>(&group.positions[*axis], 0));
                 let sin = sin * L::splat(*sense);
                 for v in &mut all.tip {
@@ -62,7 +62,7 @@ pub(super) fn columns<const W: usize, L: Lanes<W>>(
                 direction[*about] = *sense;
                 add_turn(&mut all, fast, *axis, &direction);
             }
-            Step::Turn { axis, direction, sense } => {
+            Step::Joint(Joint::Turn { axis, direction, sense }) => {
                 let (sin, cos) = sine_cosine(lanes_at::<W, L>(&group.positions[*axis], 0));
                 let sin = sin * L::splat(*sense);
                 rotate(&mut all, &rotation(splat3(direction), sin, cos));

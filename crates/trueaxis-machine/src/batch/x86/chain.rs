@@ -1,60 +1,43 @@
 //! The chain of groups of commands, and sines, with these instructions.
 
 use super::{EightPoses, FourPoses, has_avx2, has_avx512};
-use crate::axis::MAX_AXES;
-use crate::batch::chain::{self, CompiledChain, Frames, Group};
+use crate::batch::chain::{self, Frames, Group, Walk};
 use crate::lanes::Plain;
 
 /// The walk through the chain; for a processor with AVX2, else the plain way.
 pub(in crate::batch) fn chain_avx2(
-    chain: &CompiledChain,
-    commands: &[Group; MAX_AXES],
-    errors: &[[Group; 6]],
+    walk: Walk<'_>,
     stations: &mut [Frames],
     tool: &mut Frames,
 ) -> u32 {
     if !has_avx2() {
-        return chain::by::<8, Plain<8>>(chain, commands, errors, stations, tool);
+        return chain::by::<8, Plain<8>>(walk, stations, tool);
     }
     // SAFETY: the processor has AVX2 and FMA; asked three lines above.
-    unsafe { chain_with_avx2(chain, commands, errors, stations, tool) }
+    unsafe { chain_with_avx2(walk, stations, tool) }
 }
 
 /// The same for a processor with AVX-512.
 pub(in crate::batch) fn chain_avx512(
-    chain: &CompiledChain,
-    commands: &[Group; MAX_AXES],
-    errors: &[[Group; 6]],
+    walk: Walk<'_>,
     stations: &mut [Frames],
     tool: &mut Frames,
 ) -> u32 {
     if !has_avx512() {
-        return chain::by::<8, Plain<8>>(chain, commands, errors, stations, tool);
+        return chain::by::<8, Plain<8>>(walk, stations, tool);
     }
     // SAFETY: the processor has AVX2, FMA and AVX-512F; asked three lines above.
-    unsafe { chain_with_avx512(chain, commands, errors, stations, tool) }
+    unsafe { chain_with_avx512(walk, stations, tool) }
 }
 
 #[target_feature(enable = "avx2,fma")]
-fn chain_with_avx2(
-    chain: &CompiledChain,
-    commands: &[Group; MAX_AXES],
-    errors: &[[Group; 6]],
-    stations: &mut [Frames],
-    tool: &mut Frames,
-) -> u32 {
-    chain::by::<4, FourPoses>(chain, commands, errors, stations, tool)
+fn chain_with_avx2(walk: Walk<'_>, stations: &mut [Frames], tool: &mut Frames) -> u32 {
+    chain::by::<4, FourPoses>(walk, stations, tool)
 }
 
 #[target_feature(enable = "avx2,fma,avx512f")]
-fn chain_with_avx512(
-    chain: &CompiledChain,
-    commands: &[Group; MAX_AXES],
-    errors: &[[Group; 6]],
-    stations: &mut [Frames],
-    tool: &mut Frames,
-) -> u32 {
-    chain::by::<8, EightPoses>(chain, commands, errors, stations, tool)
+fn chain_with_avx512(walk: Walk<'_>, stations: &mut [Frames], tool: &mut Frames) -> u32 {
+    chain::by::<8, EightPoses>(walk, stations, tool)
 }
 
 /// Sines and cosines; for a processor with AVX2, else the plain way.
