@@ -35,6 +35,20 @@ fn a_file_is_opened_and_saved_and_no_edit_of_another_window_is_lost() {
     assert_eq!(again.status, 200);
 }
 
+/// A window listens from the moment that it is answered, so that no save between this and its first message is lost.
+#[test]
+fn a_window_hears_of_what_is_saved_at_once_after_it_was_answered() {
+    let served = serve(project("at-once"), &client::OPEN);
+    for n in 0..40 {
+        let path = format!("mill/new-{n}.toml");
+        let (_, mut window) = served.socket("");
+        assert_eq!(served.ask("save", &json!({ "path": path, "text": "" })).status, 200);
+        let (_, news) = next(&mut window).expect("it hears of it");
+        let news: Value = serde_json::from_slice(&news).expect("JSON");
+        assert_eq!(news["changed"]["path"], path.as_str());
+    }
+}
+
 #[test]
 fn what_an_answer_made_is_saved_and_no_file_of_a_person_is_replaced() {
     let served = serve(project("made"), &client::OPEN);

@@ -92,8 +92,12 @@ impl Open {
     }
 }
 
-/// Serves a window until it goes.
-pub(crate) async fn serve(socket: WebSocket, desk: Arc<Desk>) {
+/// Serves a window until it goes; it learns of every file that is sent to `changed`.
+pub(crate) async fn serve(
+    socket: WebSocket,
+    desk: Arc<Desk>,
+    mut changed: broadcast::Receiver<ChangeEntry>,
+) {
     let (mut sink, mut stream) = socket.split();
     let (out, mut queue) = mpsc::channel::<Message>(MOST_UNREAD);
     let writer = tokio::spawn(async move {
@@ -103,7 +107,6 @@ pub(crate) async fn serve(socket: WebSocket, desk: Arc<Desk>) {
             }
         }
     });
-    let mut changed = desk.changed.subscribe();
     let open = Arc::new(Open::default());
     loop {
         let message = tokio::select! {

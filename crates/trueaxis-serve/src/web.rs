@@ -143,8 +143,10 @@ async fn open_socket(State(shared): State<Shared>, upgrade: WebSocketUpgrade) ->
         return refused(&Refusal::new(503, "busy", message, "close one of them"));
     };
     let upgrade = upgrade.max_message_size(MOST_BYTES).max_frame_size(MOST_BYTES);
+    // It listens before it is answered: what is saved between the answer and the first message counts, too.
+    let changed = shared.desk.changed.subscribe();
     upgrade.on_upgrade(move |socket| async move {
-        socket::serve(socket, shared.desk).await;
+        socket::serve(socket, shared.desk, changed).await;
         drop(place);
     })
 }
