@@ -532,6 +532,12 @@ impl<'m> AxisPath<'m> {
     }
 }
 
+/// Pieces shorter than this drown in the rounding of a long path, mm or deg.
+pub(super) const SHORTEST: f64 = 1e-6;
+
+/// Shorter than [`SHORTEST`] a move in inverse time is over at once: what lasts so long is motion. Unit: mm/s or deg/s.
+const AT_ONCE: f64 = 1e6;
+
 /// The speed of a move.
 #[derive(Debug, Clone, Copy)]
 enum Speed {
@@ -547,6 +553,7 @@ impl Speed {
         match self {
             Self::Rapid => f64::INFINITY,
             Self::PerSecond(speed) => speed,
+            Self::Lasting(_) if length < SHORTEST => AT_ONCE,
             Self::Lasting(seconds) => length / seconds,
         }
     }

@@ -1,6 +1,6 @@
 //! When each node is passed: by the planner of the control, or by the phases of Jiang et al..
 
-use super::axis_path::Node;
+use super::axis_path::{Node, SHORTEST};
 use super::timing;
 use super::timing::three_phase::{Block, Shape, ThreePhases};
 use super::timing::{AxisLimits, Element, LimitKind, Limiting, Planner, Timed, TimingError};
@@ -41,9 +41,6 @@ const USUAL: [[f64; 3]; 2] = [[500.0, 3000.0, 50_000.0], [6.0, 20.0, 350.0]];
 
 /// A corner may turn a rotary axis off its path by so much, rad (0.02°).
 const ROUNDING_RAD: f64 = 3.5e-4;
-
-/// Pieces shorter than this drown in the rounding of a long path, mm or deg.
-const SHORTEST: f64 = 1e-6;
 
 /// The limits of the axes, with usual ones where the machine file states none.
 pub fn limits(machine: &Machine) -> AxisLimits {

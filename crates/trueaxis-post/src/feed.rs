@@ -30,6 +30,7 @@ pub(crate) fn feed_of(
         let (mode, value) = (FeedMode::PerMinute, tip_feed_mm_per_min.min(GREATEST));
         return Feed { mode, value };
     }
+    let file = (FeedMode::PerMinute, tip_feed_mm_per_min);
     let (mut linear, mut rotary, mut slowest) = (0.0_f64, 0.0_f64, 0.0_f64);
     for (i, axis) in machine.axes().iter().enumerate() {
         let way = (to.command[i] - from.command[i]).abs();
@@ -53,12 +54,37 @@ pub(crate) fn feed_of(
     let (mode, value) = match options.feed {
         FeedRule::InverseTime => (FeedMode::InverseTime, minutes.recip()),
         // The number of the file, not one that rounding has touched.
-        _ if minutes == wanted && (options.tip_words.is_some() || rotary == 0.0) => {
-            (FeedMode::PerMinute, tip_feed_mm_per_min)
+        _ if minutes == wanted && (options.tip_words.is_some() || rotary == 0.0) => file,
+        // The same place again, with axis positions that differ by their rounding.
+        _ if rotary == 0.0 && linear <= NO_LENGTH_MM => file,
+        _ => {
+            let length = if options.tip_words.is_some() { tip } else { linear };
+            (
+                FeedMode::PerMinute,
+                counted(machine, options, [from, to], length, turned_deg) / minutes,
+            )
         }
-        _ if options.tip_words.is_some() => (FeedMode::PerMinute, along / minutes),
-        _ if linear > NO_LENGTH_MM => (FeedMode::PerMinute, linear / minutes),
-        _ => (FeedMode::PerMinute, turned_deg / minutes),
     };
     Feed { mode, value: value.min(GREATEST) }
+}
+
+/// What the control counts the feed along: millimetres of the tip or of the linear axes, as they are given, or degrees
+/// where these numbers are the same as before.
+fn counted(
+    machine: &Machine,
+    options: &PostOptions,
+    [from, to]: [&Node; 2],
+    length_mm: f64,
+    turned_deg: f64,
+) -> f64 {
+    let per_mm = 10_f64.powi(i32::from(options.decimals.linear));
+    let differ = |a: f64, b: f64| (a * per_mm).round_ties_even() != (b * per_mm).round_ties_even();
+    let moves = match options.tip_words {
+        Some(_) => (0..3).any(|i| differ(from.stand.tip[i], to.stand.tip[i])),
+        None => machine.axes().iter().enumerate().any(|(i, axis)| {
+            axis.kind == AxisKind::Linear && differ(from.command[i], to.command[i])
+        }),
+    };
+    // Numbers that differ do so by an increment.
+    if moves { length_mm.max(per_mm.recip()) } else { turned_deg }
 }

@@ -347,6 +347,10 @@ fn arc(circle: &ClCircle, from: &Stand, to: &Stand) -> Way {
     let shortest = normal.dot(&a.cross(&b)).atan2(a.dot(&b));
     let full = std::f64::consts::TAU;
     // From the start to the start is a whole circle.
-    let angle_rad = if shortest <= 1e-9 { shortest + full } else { shortest };
+    let angle_rad = match (b - a).norm() <= SAME_MM {
+        true => full,
+        false if shortest <= 0.0 => shortest + full,
+        false => shortest,
+    };
     Way::Arc { center, normal, angle_rad }
 }

@@ -11,7 +11,7 @@ use trueaxis_input::{in_order, usual_threads};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Travel};
 use trueaxis_machine::tcp::TipControl;
-use trueaxis_nc::moves::{Axis, Coordinates, Feed, FeedMode, SpindleDirection};
+use trueaxis_nc::moves::{Axis, Coordinates, Feed, SpindleDirection};
 use trueaxis_writer::{
     Block, Heading, Hole, Target, Templates, TipWords, ToolCall, WriteError, Writer,
     axis_coordinates,
@@ -316,11 +316,8 @@ impl<'p> Post<'p> {
     ) -> Result<(), Fault> {
         self.cutter.inside(&node.command, line)?;
         let target = self.target(node);
-        let moves = feed.is_none_or(|f| f.value.is_finite());
         let block = match feed {
-            // Nothing moves in no time: a rapid block, which is left out if it says nothing new.
-            Some(feed) if moves => Block::Line(target, feed),
-            Some(_) => Block::Line(target, Feed { mode: FeedMode::PerMinute, value: 1.0 }),
+            Some(feed) => Block::Line(target, feed),
             None => Block::Rapid(target),
         };
         let before = self.line;

@@ -10,7 +10,7 @@ use trueaxis::machine::Machine;
 use trueaxis::nc::Control::{self, Fanuc, Haas, Heidenhain, LinuxCnc, Sinumerik840d};
 use trueaxis::nc::moves::{Axis, MoveKind};
 use trueaxis::nc::{NoLibrary, Program, Settings, Step, interpret};
-use trueaxis::post::{PostOptions, Posted, post, verify};
+use trueaxis::post::{FeedRule, PostOptions, Posted, post, verify};
 use trueaxis::writer::TipWords;
 
 const CONTROLS: [Control; 5] = [Fanuc, Haas, LinuxCnc, Sinumerik840d, Heidenhain];
@@ -273,6 +273,67 @@ proptest! {
             }
         }
     }
+}
+
+/// A place that the file gives twice, exactly or but for its last digits, after a line and after a circle, with a tilted
+/// tool: every program is proved, and none of its blocks goes slower than the file says.
+#[test]
+fn law_a_place_given_twice_slows_no_block() {
+    let engraver = machine("i5-engraver");
+    let (sin, cos) = 0.5_f64.sin_cos();
+    let file = |apart: f64| {
+        let mut text = "UNITS/MM\nFEDRAT/600\nMULTAX/ON\n".to_owned();
+        let mut goto = |x: f64, along: f64, before: &str| {
+            for i in 0..2 {
+                let [x, y, z] = [x, along * cos, along * sin].map(|v| v + apart * f64::from(i));
+                let _ =
+                    writeln!(text, "{before}GOTO/{x:.13},{y:.13},{z:.13},0,{:.12},{cos:.12}", -sin);
+            }
+        };
+        goto(13.3525204, 0.0, "");
+        goto(20.0, 0.0, "");
+        let circle = format!("CIRCLE/0,0,0,0,{sin:.12},{:.12},20\n", -cos);
+        goto(20.0, 0.0, &circle);
+        goto(-12.0, -16.0, &circle);
+        goto(-12.0, 3.0, "");
+        text + "FINI\n"
+    };
+    for control in CONTROLS {
+        for (words, feed) in [
+            (None, FeedRule::Tip),
+            (None, FeedRule::InverseTime),
+            (Some(TipWords::Angles), FeedRule::Tip),
+            (Some(TipWords::Angles), FeedRule::AxisLimit),
+        ] {
+            if control == Heidenhain && feed == FeedRule::InverseTime {
+                continue;
+            }
+            let options = PostOptions { feed, lines_only: true, ..options(control, words) };
+            for apart in [0.0, 1e-13, 1e-10, 2e-9, 1e-6, 2e-5, 3e-4] {
+                let twice = proved(&engraver, &file(apart), &options);
+                let feeds = feeds(&twice, control);
+                let at_least = if feed == FeedRule::InverseTime { 2.9 } else { 599.9 };
+                assert!(
+                    feeds.iter().all(|f| *f > at_least),
+                    "{control:?} {words:?} {apart} {feeds:?}"
+                );
+            }
+        }
+    }
+}
+
+/// The feeds of the moves that cut.
+fn feeds(posted: &Posted, control: Control) -> Vec<f64> {
+    let program = Program::new("p", posted.text.clone(), control);
+    let mut all = Vec::new();
+    interpret(&program, &NoLibrary, &Settings::default(), &mut |step| {
+        if let Step::Move(m) = step
+            && matches!(m.kind, MoveKind::Linear)
+        {
+            all.push(m.feed.value);
+        }
+    });
+    all
 }
 
 /// With the tool length alone a tilted tool is refused with its line.

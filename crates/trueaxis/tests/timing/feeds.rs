@@ -63,3 +63,32 @@ fn in_inverse_time_the_length_does_not_matter() {
         }
     }
 }
+
+/// A block to the place where the tool is, or nearer to it than any control knows places, takes no time in inverse time
+/// either, as in LinuxCNC; with the numbers of the axes and with those of the tip.
+#[test]
+fn law_in_inverse_time_a_block_without_motion_takes_no_time() {
+    let head = "G90 G0 X0 Y0 Z0 C0\n";
+    for (on, off) in [("", ""), ("G43.4 H0\n", "G49\n")] {
+        let program = |between: &str| {
+            format!(
+                "{head}{on}G93 G1 X10 F4\n{between}G1 X20 C30 F4\n{between}G94\nG1 X0 F300\n{off}M30\n"
+            )
+        };
+        let all_s = |between: &str| {
+            let text = program(between);
+            ends(&mill(), Control::Fanuc, &text, Densify::default()).last().expect("ends").1
+        };
+        let wanted = all_s("");
+        assert!((wanted - 34.0).abs() < 0.1, "{wanted} s");
+        for between in [
+            "G1 F4\n",
+            "G91 G1 X0 F4\nG90\n",
+            "G91 G1 X0.0000001 F0.5\nG90\n",
+            "G91 G1 X0 C0.0000003 F2\nG90\n",
+        ] {
+            let found = all_s(between);
+            assert!((found - wanted).abs() < 0.05, "{on}{between}: {found} s, not {wanted} s");
+        }
+    }
+}
