@@ -21,7 +21,7 @@ use trueaxis_measure::instruments::{MaterialCompensation, Motion};
 use trueaxis_measure::measure::instrument::Instrument;
 use trueaxis_measure::measure::{Kind, Readings};
 use trueaxis_measure::unknowns::design::Design;
-use trueaxis_measure::unknowns::fit::{FitError, by_rows, fit};
+use trueaxis_measure::unknowns::fit::{FitError, by_rows, fit, normal_matrix};
 use trueaxis_measure::unknowns::term::{Basis, Shape, Term};
 
 const MACHINES: [&str; 4] = ["lei-hsu-mill", "xkas2525", "nutating-head", "three-axis-mill"];
@@ -288,5 +288,38 @@ fn law_what_the_groups_do_not_cover_is_computed_row_by_row() {
     match fit(&design, &readings, &[]) {
         Err(FitError::Outside { row, .. }) => assert_eq!(row, 300),
         other => panic!("{:?}", other.map(|fit| fit.passes)),
+    }
+}
+
+/// The normal matrix of many rows, which is summed from groups, is the sum of those of parts of them, which are not; with the
+/// weights of a robust fit, too.
+#[test]
+fn law_the_normal_matrix_of_many_rows_is_that_of_its_parts() {
+    for name in MACHINES {
+        for machine in stated(name) {
+            let design = design_of(&machine);
+            let few = rows(&mut SplitMix64::new(26), &machine, design.instruments.len());
+            let mut many = Readings::default();
+            for i in 0..6000 {
+                many.push(few.row(i * 7 % few.len()));
+            }
+            let weights: Vec<f64> = (0..many.len()).map(|i| (i % 5) as f64 / 4.0).collect();
+            for weights in [&[][..], &weights] {
+                let priors = normal_matrix(&design, &Readings::default(), &[]);
+                let mut due = priors.clone();
+                for start in (0..many.len()).step_by(1500) {
+                    let mut part = Readings::default();
+                    (start..start + 1500).for_each(|i| part.push(many.row(i)));
+                    let weights = weights.get(start..start + 1500).unwrap_or_default();
+                    due += normal_matrix(&design, &part, weights) - &priors;
+                }
+                let found = normal_matrix(&design, &many, weights);
+                for (i, j) in (0..due.nrows()).flat_map(|i| (0..=i).map(move |j| (i, j))) {
+                    let unit = (due[(i, i)] * due[(j, j)]).sqrt();
+                    let off = (found[(i, j)] - due[(i, j)]).abs();
+                    assert!(off <= 1e-12 * unit, "{name} {i} {j}: {off} of {unit}");
+                }
+            }
+        }
     }
 }

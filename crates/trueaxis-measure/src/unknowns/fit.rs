@@ -13,7 +13,7 @@ use super::design::Design;
 use super::groups::Groups;
 use super::known::Known;
 use crate::instruments::{Instrument, Readings};
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use nalgebra::{DMatrix, DMatrixView, DVector, SymmetricEigen};
 use rayon::prelude::*;
 use std::ops::Range;
 use trueaxis_machine::chain::CommandFault;
@@ -31,6 +31,9 @@ const ROUNDING_STEP: f64 = 1e-4;
 const MOST_PASSES: usize = 60;
 /// Rows that one thread takes at a time: fixed, so that sums do not depend on the machine.
 const CHUNK: usize = 512;
+/// From so many rows on JᵀWJ is summed from groups of rows. Fewer are summed row by row, as the candidates of a plan are: a plan,
+/// and the fit of what was measured by it, then agree also on combinations that are hardly seen, which hang on last digits.
+const MANY: usize = 4096;
 /// Chunks whose squares are kept until they are summed, in order: so that a million rows do not keep a thousand matrices, and the
 /// result does not depend on the threads.
 const BATCH: usize = 64;
@@ -205,34 +208,43 @@ impl<'a> Rows<'a> {
         self.weights.get(i).copied().unwrap_or(1.0)
     }
 
-    /// JᵀWJ with the priors. Row by row, as [`Design::columns`]: what cannot be observed, and which poses a plan takes, depends on
-    /// its last digits.
-    fn normal(&self) -> DMatrix<f64> {
+    /// JᵀWJ with the priors.
+    fn normal(&self, groups: &Groups<'_>) -> DMatrix<f64> {
         let n = self.design.unknowns();
         let mut normal = DMatrix::zeros(n, n);
         let chunks: Vec<usize> = (0..self.readings.len().div_ceil(CHUNK)).collect();
         for batch in chunks.chunks(BATCH) {
-            let part = |chunk: &usize| self.squared(*chunk);
-            for part in batch.par_iter().map(part).collect::<Vec<_>>() {
+            let part = |room: &mut Vec<f64>, chunk: &usize| self.squared(groups, *chunk, room);
+            for part in batch.par_iter().map_init(Vec::new, part).collect::<Vec<_>>() {
                 normal += part;
             }
         }
         normal + &self.prior.normal
     }
 
-    /// What a chunk adds to JᵀWJ.
-    fn squared(&self, chunk: usize) -> DMatrix<f64> {
-        let mut columns = self.design.columns(self.readings, self.range(chunk));
+    /// What a chunk adds to JᵀWJ; `room` for Jᵀ/u.
+    fn squared(&self, groups: &Groups<'_>, chunk: usize, room: &mut Vec<f64>) -> DMatrix<f64> {
+        let (n, rows) = (self.design.unknowns(), self.range(chunk));
+        match self.readings.len() < MANY {
+            true => {
+                room.clear();
+                room.extend_from_slice(self.design.columns(self.readings, rows.clone()).as_slice());
+            }
+            false => groups.columns(rows.clone(), room),
+        }
         if !self.weights.is_empty() {
-            let mut next = 0;
-            for i in self.range(chunk) {
-                for _ in 0..self.instrument(i).sight.channels() {
-                    columns.column_mut(next).scale_mut(self.weights[i].sqrt());
-                    next += 1;
+            let mut columns = room.chunks_exact_mut(n.max(1));
+            for i in rows {
+                let root = self.weight(i).sqrt();
+                for column in columns.by_ref().take(self.instrument(i).sight.channels()) {
+                    column.iter_mut().for_each(|slope| *slope *= root);
                 }
             }
         }
-        &columns * columns.transpose()
+        let m = room.len() / n.max(1);
+        let by_columns = DMatrixView::from_slice(room, n, m);
+        // The same numbers by rows: no second matrix.
+        by_columns * DMatrixView::from_slice_with_strides(room, m, n, n, 1)
     }
 
     /// Residuals at these values, and `JᵀW r`.
@@ -305,7 +317,7 @@ impl<'a> Rows<'a> {
 
 /// JᵀWJ of these readings and the priors; `weights` of the readings, empty for 1.
 pub fn normal_matrix(design: &Design, readings: &Readings, weights: &[f64]) -> DMatrix<f64> {
-    Rows::new(design, readings, weights).normal()
+    Rows::new(design, readings, weights).normal(&Groups::new(design, readings))
 }
 
 /// The unknowns from the readings; `weights` of the readings (robust losses), empty for 1.
@@ -354,7 +366,7 @@ pub fn fit_by(
         return Err(FitError::NoUnknowns);
     }
     let (rows, groups) = (Rows::new(design, readings, weights), Groups::new(design, readings));
-    let sight = Observability::with_threshold(&rows.normal(), rule.threshold);
+    let sight = Observability::with_threshold(&rows.normal(&groups), rule.threshold);
     let mut values = DVector::zeros(design.unknowns());
     let mut residuals = vec![[0.0; 3]; readings.len()];
     let mut before = 0.0;

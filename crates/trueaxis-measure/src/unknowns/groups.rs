@@ -207,6 +207,37 @@ impl<'a> Groups<'a> {
         }
     }
 
+    /// The rows in units of their noise, one *column* each, in order, as [`Design::columns`]: Jᵀ/u.
+    pub(super) fn columns(&self, rows: Range<usize>, values: &mut Vec<f64>) {
+        let n = self.design.unknowns();
+        let starts = self.starts(rows.clone());
+        values.resize(n * starts.last().copied().unwrap_or(0), 0.0);
+        self.slopes(rows.clone(), |i, slopes| {
+            let start = n * starts[i - rows.start];
+            let noise = self.instrument(&[i]).noise;
+            let columns = values[start..start + slopes.len()].chunks_exact_mut(n.max(1));
+            for ((column, slopes), u) in columns.zip(slopes.chunks_exact(n.max(1))).zip(noise) {
+                let per_u = 1.0 / u;
+                for (to, slope) in column.iter_mut().zip(slopes) {
+                    *to = slope * per_u;
+                }
+            }
+        });
+    }
+
+    /// How many numbers the rows before each row have, and all of them.
+    fn starts(&self, rows: Range<usize>) -> Vec<usize> {
+        let mut next = 0;
+        let before = |i: usize| {
+            let start = next;
+            next += self.instrument(&[i]).sight.channels();
+            start
+        };
+        let mut starts: Vec<usize> = rows.map(before).collect();
+        starts.push(next);
+        starts
+    }
+
     fn slopes_group(&self, room: &mut Room, group: &[usize], row: &mut impl FnMut(usize, &[f64])) {
         let instrument = self.instrument(group);
         let n = self.design.unknowns();
