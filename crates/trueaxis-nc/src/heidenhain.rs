@@ -256,8 +256,10 @@ impl<'r> Run<'r> {
             named = named.with(axis);
         }
         let mut step = self.core.plain_move(kind, target, named);
-        if self.modes.shortest {
-            step.rotary_directions = [RotaryDirection::Shortest; 3];
+        for (i, axis) in [Axis::A, Axis::B, Axis::C].into_iter().enumerate() {
+            if self.modes.shortest && named.contains(axis) {
+                step.rotary_directions[i] = RotaryDirection::Shortest;
+            }
         }
         self.emit_move(step, at)
     }

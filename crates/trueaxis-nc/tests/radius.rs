@@ -354,3 +354,24 @@ fn approach_and_departure_of_heidenhain() {
     let found = sound(Heidenhain, &program("LN X+0 Y+0 LEN5", "LN LEN5").replace("RL", "R0"), 2.0);
     assert_ends(&found, &[start, [0.0, -5.0], [0.0, 0.0], [20.0, 0.0], [20.0, -5.0], away]);
 }
+
+/// M126 is for the rotary axes: contours, their approaches and corners are those of M127.
+#[test]
+fn the_way_of_rotary_axes_is_no_matter_of_a_contour() {
+    for (approach, corner, depart) in [
+        ("APPR CT X+0 Y+0 CCA90 R+3 RL F500", "RND R4", "DEP LCT X+50 Y+30 R3"),
+        ("APPR LN X+0 Y+0 LEN5 RR F500", "CHF 2", "DEP LT LEN5"),
+        ("L X+0 Y+0 R0 F500", "RND R3", "L X+9 R0"),
+        ("L X+0 Y+0 RL F500", "CT X+20 Y+9", "L X+40 R0"),
+    ] {
+        let program = |mode: &str| {
+            format!(
+                "BEGIN PGM A MM\nTOOL CALL 1 Z S1\nL X-30 Y+30 R0 FMAX {mode}\n{approach}\nL X+20\n{corner}\n\
+                 L Y+30\nCC X+20 Y+40\nC X+10 Y+40 DR-\n{depart}\nL C+270 FMAX\nL X+50 Y+50 R0 FMAX\nEND PGM A MM\n"
+            )
+        };
+        let [with, without] = ["M126", "M127"].map(|mode| sound(Heidenhain, &program(mode), 2.0));
+        assert!(with.len() > 7, "{with:?}");
+        assert_eq!(with, without, "{approach}, {corner}, {depart}");
+    }
+}

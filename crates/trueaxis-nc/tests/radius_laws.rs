@@ -193,10 +193,17 @@ struct Notation {
     by_radius: bool,
     /// Lines and arcs in two blocks each.
     halved: bool,
+    /// With a mode of the rotary axes, of which the contour has none.
+    rotary_mode: bool,
 }
 
-const PLAIN: Notation =
-    Notation { left: true, incremental: false, by_radius: false, halved: false };
+const PLAIN: Notation = Notation {
+    left: true,
+    incremental: false,
+    by_radius: false,
+    halved: false,
+    rotary_mode: false,
+};
 
 /// The program of a contour with its entry and exit; the first element begins in this line.
 const FIRST: u32 = 5;
@@ -210,6 +217,9 @@ fn written(control: Control, contour: &[Element], notation: Notation) -> String 
     }
     .to_owned();
     let klartext = control == Heidenhain;
+    if klartext && notation.rotary_mode {
+        text = text.trim_end().to_owned() + " M126\n";
+    }
     let side = match (klartext, notation.left) {
         (true, true) => "RL F500",
         (true, false) => "RR F500",
@@ -341,7 +351,10 @@ proptest! {
         ] {
             same(path.as_deref(), centre(Sinumerik840d, &contour, notation).as_deref())?;
         }
-        same(path.as_deref(), centre(Heidenhain, &contour, plain).as_deref())?;
+        for rotary_mode in [false, true] {
+            let notation = Notation { rotary_mode, ..plain };
+            same(path.as_deref(), centre(Heidenhain, &contour, notation).as_deref())?;
+        }
         let fanuc = centre(Fanuc, &contour, plain);
         same(fanuc.as_deref(), centre(Haas, &contour, Notation { incremental: true, by_radius: true, ..plain }).as_deref())?;
     }

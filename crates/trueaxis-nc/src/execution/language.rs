@@ -476,5 +476,9 @@ fn ends_elsewhere(step: &Move) -> bool {
     step.coordinates == Coordinates::Machine
         || step.direction.is_some()
         || matches!(step.kind, MoveKind::Align { .. })
-        || step.rotary_directions != [RotaryDirection::AsWritten; 3]
+        || [Axis::A, Axis::B, Axis::C].iter().zip(step.rotary_directions).any(
+            |(axis, direction)| {
+                direction != RotaryDirection::AsWritten && step.named.contains(*axis)
+            },
+        )
 }

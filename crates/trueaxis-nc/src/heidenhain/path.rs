@@ -230,8 +230,8 @@ impl Run<'_> {
         let mut step = self.core.plain_move(kind, target, named);
         step.direction = direction;
         for (i, axis) in rotary.into_iter().enumerate() {
-            let increment = words.axes[axis as usize].is_some_and(|w| w.incremental);
-            if self.modes.shortest && !increment {
+            let absolute = words.axes[axis as usize].is_some_and(|w| !w.incremental);
+            if self.modes.shortest && absolute {
                 step.rotary_directions[i] = RotaryDirection::Shortest;
             }
         }

@@ -23,7 +23,6 @@ impl Run<'_> {
         let Some(mut words) = after_l(source, at) else { return };
         let modes = &self.modes;
         let special = modes.side != CompensationSide::Off
-            || modes.shortest
             || modes.space_angles
             || modes.per_revolution
             || modes.cycle_everywhere
@@ -67,7 +66,8 @@ impl Run<'_> {
             None => self.core.modes.feed,
         };
         let in_range = line.target.iter().all(|v| v.abs() < 1e9) && feed.value.abs() < 1e9;
-        if line.named == 0 || !in_range || !rapid && feed.value <= 0.0 {
+        let shortest = self.modes.shortest && line.named & ROTARY != 0;
+        if line.named == 0 || !in_range || !rapid && feed.value <= 0.0 || shortest {
             return None;
         }
         self.core.modes.feed = feed;
