@@ -439,6 +439,8 @@ impl<'m> AxisPath<'m> {
     fn count(&self, m: &Move, curve: &Curve, length_mm: f64, turned: f64) -> Result<u32, Fault> {
         let mut count = self.densify.count(length_mm, turned);
         if let (Curve::Helix { .. }, Some(chord_mm)) = (curve, self.densify.circle_chord_mm()) {
+            // The frame makes chords as much longer as the curve.
+            let chord_mm = chord_mm / self.scale(curve);
             count = count.max(super::densify::pieces(curve.chords(chord_mm)));
         }
         if length_mm.is_finite() && turned.is_finite() {

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use trueaxis_nc::moves::{Axis, Frame, Position};
+use trueaxis_input::Severity;
+use trueaxis_nc::Control::{Fanuc, Haas, LinuxCnc};
+use trueaxis_nc::moves::{Axis, Frame, Move, Position};
 use trueaxis_nc::{
     Control, Event, Library, MoveKind, NoLibrary, Program, Settings, Step, interpret,
 };
@@ -162,21 +164,41 @@ fn a_preamble_with_everything_still_moves() {
     assert_eq!(path(Axis::X, text, &NoLibrary), [5.0]);
 }
 
+/// The times that a program waits, or what it is refused for.
+fn waits(control: Control, text: &str) -> Result<Vec<f64>, &'static str> {
+    let (mut steps, program) = (Vec::new(), Program::new("p", text.as_bytes().to_vec(), control));
+    let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |s| steps.push(s));
+    let seconds = steps.into_iter().filter_map(|s| match s {
+        Step::Move(Move { kind: MoveKind::Dwell { seconds }, .. }) => Some(seconds),
+        _ => None,
+    });
+    match outcome.problems.iter().find(|p| p.severity == Severity::Error) {
+        Some(problem) => Err(problem.code),
+        None => Ok(seconds.collect()),
+    }
+}
+
+/// P of FANUC counts milliseconds and takes no fraction; of Haas P10. is 10 s and P10 is 10 ms; of LinuxCNC it counts
+/// seconds. In a drilling cycle as in G4, whatever variable or sign is written.
 #[test]
-fn dwell_counts_milliseconds() {
-    let of = |s: Step| match s {
-        Step::Move(m) => {
-            if let MoveKind::Dwell { seconds } = m.kind {
-                Some(seconds)
-            } else {
-                None
-            }
+fn a_dwell_by_each_control() {
+    let hole = |p: &str| format!("G0 Z5\nG82 Z-5 R1 {p} F100\nG80\n");
+    for (p, fanuc, haas, linuxcnc) in [
+        ("P500", Ok(0.5), 0.5, 500.0),
+        ("P1.5", Err("bad-dwell"), 1.5, 1.5),
+        ("P10.", Ok(0.01), 10.0, 10.0),
+        ("P #1", Ok(0.25), 0.25, 250.0),
+        ("P[200+50]", Ok(0.25), 0.25, 250.0),
+        ("P +2.5", Err("bad-dwell"), 2.5, 2.5),
+    ] {
+        for text in [format!("G4 {p}\n"), hole(p)] {
+            let text = format!("G21 G90 G94\n#1=250\n{text}M30\n");
+            assert_eq!(waits(Fanuc, &text), fanuc.map(|s| vec![s]), "{text}");
+            assert_eq!(waits(Haas, &text), Ok(vec![haas]), "{text}");
+            assert_eq!(waits(LinuxCnc, &text), Ok(vec![linuxcnc]), "{text}");
         }
-        Step::Event(..) => None,
-    };
-    let found: Vec<_> =
-        steps("G4 P500\nG4 X1.5\nM30\n", &NoLibrary).into_iter().filter_map(of).collect();
-    assert_eq!(found, [0.5, 1.5]);
+    }
+    assert_eq!(waits(Fanuc, "G4 X1.5\nG4 U2\nM30\n"), Ok(vec![1.5, 2.0]));
 }
 
 #[test]

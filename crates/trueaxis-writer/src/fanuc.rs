@@ -7,6 +7,9 @@ use trueaxis_nc::moves::{Coordinates, Feed};
 /// X counts seconds.
 pub(super) const DWELL: (&[u8], Form) = (b"G4 X", Form::Point);
 
+/// With a decimal point P counts seconds on Haas.
+pub(super) const DWELL_OF_HAAS: (&[u8], Form) = (b"G4 P", Form::Point);
+
 pub(super) fn straight(w: &mut Writer, target: &Target, feed: Option<&Feed>) -> WriteResult {
     let machine = target.coordinates == Coordinates::Machine;
     if machine && feed.is_some() {

@@ -208,7 +208,8 @@ impl Writer {
         }
         let (word, form) = match self.control {
             Control::Heidenhain => heidenhain::DWELL,
-            Control::Fanuc | Control::Haas => fanuc::DWELL,
+            Control::Fanuc => fanuc::DWELL,
+            Control::Haas => fanuc::DWELL_OF_HAAS,
             Control::LinuxCnc => linuxcnc::DWELL,
             Control::Sinumerik840d => sinumerik::DWELL,
         };

@@ -125,19 +125,25 @@ proptest! {
         }
     }
 
-    /// Circles stay circles: every node lies on the programmed arc, and chords keep the tolerance.
+    /// Circles stay circles: every node lies on the programmed arc, and chords keep the tolerance, scaled by the program or
+    /// not.
     #[test]
-    fn law_arcs_are_round(radius in 0.5..200.0_f64, sweep in 5.0..355.0_f64, ccw in any::<bool>()) {
+    fn law_arcs_are_round(
+        radius in 0.5..200.0_f64,
+        sweep in 5.0..355.0_f64,
+        ccw in any::<bool>(),
+        scale in prop::sample::select(vec![0.05, 1.0, 4.0, 50.0]),
+    ) {
         let machine = machine(GANTRY);
         let (sin, cos) = (if ccw { sweep } else { -sweep }).to_radians().sin_cos();
         let code = if ccw { 3 } else { 2 };
+        let r = radius / scale;
         let text = format!(
-            "G1 F500 X{radius:.6} Y0\nG{code} X{:.6} Y{:.6} I{:.6} J0\nM30\n",
-            radius * cos, radius * sin, -radius
+            "G51 X0 Y0 Z0 P{scale:.3}\nG1 F500 X{r:.9} Y0\nG{code} X{:.9} Y{:.9} I{:.9} J0\nM30\n", r * cos, r * sin, -r
         );
         let (nodes, run) = walk(&machine, Control::Fanuc, text.into_bytes(), &Options::default());
         prop_assert!(!run.problems.has_errors(), "{:?}", run.problems);
-        let first = nodes.lines.iter().rposition(|l| *l == 1).unwrap();
+        let first = nodes.lines.iter().rposition(|l| *l == 2).unwrap();
         let tips = &nodes.tips[first..];
         for tip in tips {
             prop_assert!((tip.xy().norm() - radius).abs() < 1e-5);

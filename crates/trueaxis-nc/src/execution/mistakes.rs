@@ -112,6 +112,11 @@ pub(crate) fn bad_dwell(at: usize) -> Fault {
     fault("bad-dwell", at, message, "write the time in seconds")
 }
 
+pub(crate) fn dwell_with_a_point(at: usize) -> Fault {
+    let message = "FANUC takes no decimal point in the time P of a dwell: it counts milliseconds";
+    fault("bad-dwell", at, message, "write P1500 or, in G4, X1.5 for 1.5 s")
+}
+
 pub(crate) fn bad_work_offset(number: impl Display, hint: &'static str, at: usize) -> Fault {
     fault("bad-work-offset", at, format!("unknown work offset {number}"), hint)
 }

@@ -197,9 +197,7 @@ impl Run<'_> {
             let message = "the cycle needs Q, the depth of each peck, above 0";
             return Err(fault("cycle-without-q", at, message, "write Q2"));
         }
-        // FANUC counts P in milliseconds.
-        let second = if fanuc { 1000.0 } else { 1.0 };
-        let dwell_s = self.words.take(b'P').map_or(self.modes.cycle.dwell_s, |p| p / second);
+        let dwell_s = self.seconds_by_p()?.unwrap_or(self.modes.cycle.dwell_s);
         let memory = &mut self.modes.cycle;
         (memory.r_mm, memory.depth_mm, memory.last) = (kept_r, kept_depth, Some(cycle));
         (memory.peck_mm, memory.dwell_s) = (peck, dwell_s);

@@ -209,12 +209,8 @@ impl Run<'_> {
 
     /// A factor: with a decimal point as it is, without one in thousandths.
     fn factor(&mut self, letter: u8) -> Option<f64> {
-        let place = self.words.place(letter);
-        let value = self.words.take(letter)?;
-        let program = self.current();
-        let number = program.source().get(place + 1..).unwrap_or_default().iter();
-        let mut number = number.take_while(|b| b.is_ascii_digit() || b"+- .".contains(b));
-        Some(if number.any(|b| *b == b'.') { value } else { value / 1000.0 })
+        let thousandths = if self.has_point(letter) { 1.0 } else { 1000.0 };
+        self.words.take(letter).map(|value| value / thousandths)
     }
 
     /// G51.1 mirrors at the planes of its words; G50.1 takes the planes of its words away.
