@@ -49,16 +49,25 @@ pub(super) struct Ahead {
     pub begin: Command,
     /// Its places in the stretch.
     pub nodes: Range<usize>,
-    /// Of a rapid: the axes that it leads to where a cut begins.
-    pub begins_cut: AxisSet,
+    /// Of a rapid: what of it leads to where a cut begins.
+    pub lead: Lead,
     /// Which words of the stretch are those of its line, if it moves and is of the program itself.
     pub words: Option<usize>,
     /// Why it cannot be executed.
     pub fault: Option<Fault>,
 }
 
+/// What of a rapid leads to where a cut begins.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Lead {
+    /// The axes whose words hold there; none if no cut begins.
+    pub axes: AxisSet,
+    /// Where the axes stand there.
+    pub begin: Command,
+}
+
 /// A, B and C as an [`AxisSet`].
-const ROTARY: u16 = 0b11_1000;
+pub(super) const ROTARY: u16 = 0b11_1000;
 
 /// Whether a move removes material: it has a feed.
 fn is_cut(m: &Move) -> bool {
@@ -68,6 +77,7 @@ fn is_cut(m: &Move) -> bool {
 /// Marks the words of the rapids before the last step, a cut, that hold where it begins.
 fn lead_to_cut(steps: &mut [Ahead]) {
     let mut replaced = AxisSet::default();
+    let Some(begin) = steps.last().map(|cut| cut.begin) else { return };
     for ahead in steps.iter_mut().rev().skip(1) {
         let Step::Move(m) = &ahead.step else { continue };
         if is_cut(m) {
@@ -77,7 +87,7 @@ fn lead_to_cut(steps: &mut [Ahead]) {
             // A direction leads all rotary axes.
             let turned = if m.direction.is_some() { ROTARY } else { 0 };
             let named = m.named.0 | turned;
-            ahead.begins_cut = AxisSet(named & !replaced.0);
+            ahead.lead = Lead { axes: AxisSet(named & !replaced.0), begin };
             replaced = AxisSet(replaced.0 | named);
         }
     }
@@ -184,7 +194,7 @@ impl Follower for Gather<'_> {
         let cuts = matches!(step, Step::Move(m) if is_cut(&m));
         let nodes = from..nodes.len();
         self.points += nodes.len() as u64;
-        let begins_cut = AxisSet::default();
+        let lead = Lead::default();
         let words = match &step {
             Step::Move(m) if m.origin.program == 0 && m.origin.line > 0 => {
                 // A jump back is no step back.
@@ -193,7 +203,7 @@ impl Follower for Gather<'_> {
             }
             _ => None,
         };
-        self.stretch.steps.push(Ahead { step, begin, nodes, begins_cut, words, fault });
+        self.stretch.steps.push(Ahead { step, begin, nodes, lead, words, fault });
         if cuts {
             lead_to_cut(&mut self.stretch.steps);
         }

@@ -58,6 +58,19 @@ pub(super) struct Written {
     /// Where the axes shall stand at its end, and where the control believes the tip to be then.
     pub command: Command,
     pub tip: Vec3,
+    pub held: Option<Held>,
+}
+
+/// What is wanted of a rapid where the cut begins to which its words lead.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Held {
+    /// Where the axes shall stand there, and where the control believes the tip to be then.
+    pub command: Command,
+    pub tip: Vec3,
+    /// The axes whose words hold there.
+    pub axes: AxisSet,
+    /// Whether the direction of the tool does.
+    pub turns: bool,
 }
 
 /// What the control makes of a piece.
@@ -89,7 +102,16 @@ impl Block<'_> {
             self.is_one_point()?;
         }
         let now = path.words_of(path.command(), self.m.coordinates);
-        let wanted = self.wanted(path, &now, step);
+        let mut wanted = self.wanted(path, &now, step);
+        let mut aimed = &step.command;
+        if let Some(held) = &step.held {
+            let Held { command, tip, .. } = *held;
+            let there = self.wanted(path, &now, &Written { command, tip, ..*step });
+            for axis in Axis::ALL.into_iter().filter(|axis| held.axes.contains(*axis)) {
+                wanted[axis] = there[axis];
+            }
+            aimed = if held.turns { &held.command } else { aimed };
+        }
         let mut m = Move {
             kind: self.kind(),
             target: now,
@@ -108,7 +130,7 @@ impl Block<'_> {
         let turns =
             self.only.is_none_or(|only| only.contains(Axis::A) && self.m.direction.is_some());
         if self.vectors && turns {
-            self.direction(path, step, &mut m, &mut puts)?;
+            self.direction(path, (step.piece, aimed), &mut m, &mut puts)?;
         } else if self.only.is_some() {
             m.direction = self.m.direction;
         }
@@ -313,13 +335,13 @@ impl Block<'_> {
     fn direction(
         &mut self,
         path: &AxisPath<'_>,
-        step: &Written,
+        (piece, aimed): (usize, &Command),
         m: &mut Move,
         puts: &mut Vec<Put>,
     ) -> Result<(), Fault> {
-        let here = self.m.direction.filter(|_| step.piece == 0);
+        let here = self.m.direction.filter(|_| piece == 0);
         let (Some(wanted), Some(now)) =
-            (path.direction_of(&step.command), path.direction_of(path.command()))
+            (path.direction_of(aimed), path.direction_of(path.command()))
         else {
             return Ok(());
         };

@@ -2,9 +2,9 @@
 
 mod samples;
 
-use super::ahead::{Ahead, Stretch};
+use super::ahead::{Ahead, Lead, ROTARY, Stretch};
 use super::arcs::{self, Allowed, PathPlace};
-use super::block::{Block, Written};
+use super::block::{Block, Held, Written};
 use super::computed::{Computed, free_locals};
 use super::correct::Corrector;
 use super::found::{Found, Want};
@@ -223,13 +223,14 @@ impl<'w> Walk<'w> {
             nodes: &nodes[ahead.nodes.clone()],
             first: ahead.nodes.start,
         };
-        self.vectors |= m.direction.is_some();
-        let begins_cut = (m.kind == MoveKind::Rapid).then_some(ahead.begins_cut);
+        // Words of rotary axes take over from vectors.
+        self.vectors = m.direction.is_some() || self.vectors && m.named.0 & ROTARY == 0;
+        let lead = (m.kind == MoveKind::Rapid).then_some(ahead.lead);
         let known = read.map(|read| {
             let modes = self.words(m.origin.line, read);
             (&*read, modes)
         });
-        self.written_by(m, &way, known, begins_cut)?;
+        self.written_by(m, &way, known, lead)?;
         let incremental = known.is_some_and(|(_, modes)| modes.incremental);
         self.computed.moved(m, known.map(|(words, _)| words), incremental);
         Ok(())
@@ -247,13 +248,15 @@ impl<'w> Walk<'w> {
         m: &Move,
         way: &Way<'_>,
         words: Option<(&Words, Modes)>,
-        begins_cut: Option<AxisSet>,
+        lead: Option<Lead>,
     ) -> Result<(), Fault> {
         match why_left(m, way.nodes, words.map(|(words, _)| words)) {
             Some(why) => self.leave(m, why),
-            None if begins_cut == Some(AxisSet::default()) => self.leave(m, NO_CUT_BEGINS),
+            None if lead.is_some_and(|lead| lead.axes == AxisSet::default()) => {
+                self.leave(m, NO_CUT_BEGINS)
+            }
             None if self.written.turns_on_cone() => Err(cone(m.origin)),
-            None => self.rewrite(m, way, words, begins_cut),
+            None => self.rewrite(m, way, words, lead),
         }
     }
 
@@ -297,7 +300,7 @@ impl<'w> Walk<'w> {
         m: &Move,
         way: &Way<'_>,
         words: Option<(&Words, Modes)>,
-        only: Option<AxisSet>,
+        lead: Option<Lead>,
     ) -> Result<(), Fault> {
         let whole = matches!(m.kind, MoveKind::Rapid | MoveKind::Thread { .. });
         let samples = self.samples(m, way, whole)?;
@@ -318,6 +321,7 @@ impl<'w> Walk<'w> {
         let approaching = std::mem::take(&mut self.approaching);
         let first_time = !self.text.was_executed(m.origin.line);
         let end_only = whole || approaching;
+        let held = lead.map_or(Ok(None), |lead| self.held(m, way, &lead))?;
         let leads = self.found.leads_as_before(m.origin.line, &samples, end_only);
         if !first_time && self.computed.is_in_words(words) {
             return Err(again(m.origin));
@@ -336,7 +340,7 @@ impl<'w> Walk<'w> {
             feed_unit: modes.feed_unit,
             control: self.text.control(),
             grid,
-            only,
+            only: lead.map(|lead| lead.axes),
             arc: None,
             vectors: self.vectors,
             feed_again: self.feed_again.take(),
@@ -367,11 +371,11 @@ impl<'w> Walk<'w> {
                 self.go_as_written(m);
             } else {
                 let tip = samples[*to].believed.tip;
-                let step = Written { piece, share, command: way.1, tip };
+                let step = Written { piece, share, command: way.1, tip, held };
                 let next = block.write(&self.written, &step, turns_deg)?;
                 self.feed_again = next.feed_again.or(self.feed_again);
                 self.go(&next.m);
-                if only.is_some() {
+                if lead.is_some() {
                     self.approaching = self.is_elsewhere(&way.1);
                     continue;
                 }

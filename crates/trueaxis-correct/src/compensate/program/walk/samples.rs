@@ -4,13 +4,16 @@ use super::super::correct::{Corrected, Place, reached};
 use super::super::refuse::refusal;
 use super::super::stand::{Sample, Stand};
 use super::super::turns::{At, Stop, stops};
-use super::{Walk, Way};
+use super::{Held, Lead, Walk, Way};
 use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_motion::axis_path::Fault;
-use trueaxis_nc::moves::Move;
+use trueaxis_nc::moves::{Axis, AxisSet, Move};
 
 /// A reversal error that is left counts from here on, mm.
 const LEFT_MM: f64 = 1e-6;
+
+/// Words nearer than this are the same, mm, deg or parts of a direction.
+const SAME_WORD: f64 = 1e-9;
 
 impl Walk<'_> {
     /// What the program says along the move, and what has to be commanded for it.
@@ -74,6 +77,36 @@ impl Walk<'_> {
             origin: m.origin,
         };
         self.corrector.at(&place, None).map_or(from, |c| c.command)
+    }
+
+    /// Of a rapid after which others follow before the cut: what its words are to be where the cut begins, since they hold there
+    /// and the errors of the machine are others there.
+    pub(super) fn held(&self, m: &Move, way: &Way<'_>, lead: &Lead) -> Result<Option<Held>, Fault> {
+        let end = way.nodes.last().map_or(way.begin, |node| &node.command);
+        if *end == lead.begin {
+            return Ok(None);
+        }
+        let path = &self.written;
+        let [here, there] = [end, &lead.begin].map(|q| path.words_of(q, m.coordinates));
+        let holds = |axis: &Axis| (here[*axis] - there[*axis]).abs() < SAME_WORD;
+        let axes = Axis::ALL.iter().filter(|axis| holds(axis));
+        let axes = axes.fold(AxisSet::default(), |set, axis| set.with(*axis));
+        let directions = path.direction_of(end).zip(path.direction_of(&lead.begin));
+        let turns = directions.is_some_and(|(here, there)| {
+            here.iter().zip(there).all(|(here, there)| (here - there).abs() < SAME_WORD)
+        });
+        let (from, approach) = (path.command(), self.corrector.approach());
+        let place = Place {
+            nominal: &lead.begin,
+            side: reached(&reached(approach, way.begin, end), end, &lead.begin),
+            from,
+            approach,
+            only_position: path.is_only_tilted(),
+            origin: m.origin,
+        };
+        let command = self.corrector.at(&place, None)?.command;
+        let tip = path.control().map(|control| Stand::of(control, &command).tip);
+        Ok(tip.map(|tip| Held { command, tip, axes, turns }))
     }
 
     /// The places of a move, and those where an axis reverses.
