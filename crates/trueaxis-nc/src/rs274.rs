@@ -6,6 +6,7 @@
 mod arc;
 mod circular_pocket;
 mod cycles;
+mod dwell;
 mod execute;
 mod fanuc;
 mod flow;

@@ -250,7 +250,9 @@ impl Block<'_> {
             let wanted = if turn { wanted.rem_euclid(360.0) } else { wanted };
             let value = self.grid.round(wanted, of);
             let value = if turn && value >= 360.0 { 0.0 } else { value };
-            if self.grid.same(wanted, old, of) {
+            // By the shortest way 350° and −10° are the same word.
+            let apart = if turn { within_half_a_turn(wanted - old) } else { wanted - old };
+            if self.grid.same(old + apart, old, of) {
                 (old, None)
             } else {
                 let offset = self.offset(axis, word, old)?;
@@ -287,7 +289,11 @@ impl Block<'_> {
     /// What the control adds to the written number.
     fn offset(&self, axis: Axis, word: &Word, target: f64) -> Result<f64, Fault> {
         let value = word.value.ok_or_else(|| self.computed(axis))?;
-        let near = |a: f64| (a - target).abs() <= 1e-9 * (1.0 + target.abs());
+        let turns = self.way(axis) != RotaryDirection::AsWritten;
+        let near = |a: f64| {
+            let by = if turns { within_half_a_turn(a - target) } else { a - target };
+            by.abs() <= 1e-9 * (1.0 + target.abs())
+        };
         if near(value) {
             return Ok(0.0);
         }
@@ -384,4 +390,9 @@ impl Block<'_> {
         m.direction = Some(written);
         Ok(())
     }
+}
+
+/// The same turn between −180° and 180°.
+fn within_half_a_turn(deg: f64) -> f64 {
+    deg - 360.0 * (deg / 360.0).round()
 }

@@ -23,7 +23,7 @@ use trueaxis_machine::Machine;
 use trueaxis_motion::{SetUp, execute};
 use trueaxis_nc::lexer::{Lexer, TokenKind};
 use trueaxis_nc::moves::{
-    AxisSet, CompensationSide, Event, Move, MoveKind, Origin, Position, Step,
+    AxisSet, CompensationSide, Event, Feed, FeedMode, Move, MoveKind, Origin, Position, Step,
 };
 use trueaxis_nc::{Control, Program, Settings};
 
@@ -257,9 +257,16 @@ impl Flat<'_> {
         if !told.computed.is_empty() {
             return false;
         }
-        let Some(cycle) = cycles::unrolled(program, line, words, &told.moves, self.modes) else {
+        let Some(mut cycle) = cycles::unrolled(program, line, words, &told.moves, self.modes)
+        else {
             return false;
         };
+        if control == Control::Sinumerik840d && self.after_cycle && words.motion.is_none() {
+            // A further call is reached with the motion code from before the cycle.
+            let at = (words.front - line.start).min(cycle.head.len());
+            let code = told.moves.first().and_then(cycles::motion_code).unwrap_or_default();
+            cycle.head.insert_str(at, code);
+        }
         self.lines(control, &cycle, told.origin);
         self.after_cycle = true;
         true
@@ -431,6 +438,10 @@ fn plain(step: Step, contour: Contour) -> Option<(Step, Origin)> {
             let origin = std::mem::replace(&mut m.origin, nowhere);
             // Unrolled cycles name coordinates that do not change; the target says where it goes.
             m.named = AxisSet::default();
+            if matches!(m.kind, MoveKind::Rapid | MoveKind::Dwell { .. }) {
+                // They have no feed, whatever is modal.
+                m.feed = Feed { mode: FeedMode::PerMinute, value: 0.0 };
+            }
             Some((Step::Move(m), origin))
         }
         Step::Event(Event::Note(_) | Event::Log(_), _) => None,
@@ -455,7 +466,6 @@ fn is_same(known: &Step, step: &Step, contour: Contour) -> bool {
         (x, y) => x == y,
     };
     let places = a.target.0.iter().zip(b.target.0).all(|(a, b)| near(*a, b));
-    let feed =
-        a.kind == MoveKind::Rapid || a.feed.mode == b.feed.mode && near(a.feed.value, b.feed.value);
+    let feed = a.feed.mode == b.feed.mode && near(a.feed.value, b.feed.value);
     kind && places && feed && a.coordinates == b.coordinates && a.direction == b.direction
 }

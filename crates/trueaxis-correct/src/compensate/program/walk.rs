@@ -529,6 +529,9 @@ fn why_left(m: &Move, nodes: &[Node], words: Option<&Words>) -> Option<&'static 
         (MoveKind::Rapid, _) if words.is_some_and(|w| w.reference) => {
             Some("move to a reference point")
         }
+        _ if words.is_some_and(|w| w.retracts && w.axes.iter().all(Option::is_none)) => {
+            Some("retraction along the tool axis")
+        }
         _ => None,
     }
 }

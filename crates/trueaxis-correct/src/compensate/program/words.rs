@@ -43,6 +43,8 @@ pub(super) struct Words {
     pub machine: Option<Range<usize>>,
     /// By way of a place to a reference point, or back: G27 to G30, G74, G75.
     pub reference: bool,
+    /// Back along the tool axis: MB of M140 and of PLANE.
+    pub retracts: bool,
     /// What switches increments: `Some(true)` for G91.
     pub incremental: Option<bool>,
     /// What switches the unit of lengths: G20, G70, BEGIN PGM … INCH.
@@ -386,6 +388,7 @@ impl Scan<'_> {
                 let word = self.value(token.start);
                 self.put_vector(usize::from(letter - b'X'), word);
             }
+            b"MB" => self.words.retracts = true,
             b"DR" => {
                 self.at += usize::from(self.is(0, b'+') || self.is(0, b'-'));
                 let end = self.tokens[self.at - 1].end;
