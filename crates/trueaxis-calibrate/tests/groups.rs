@@ -323,3 +323,25 @@ fn law_the_normal_matrix_of_many_rows_is_that_of_its_parts() {
         }
     }
 }
+
+/// Bodies of an instrument's own and light do not grow with the workpiece; its surfaces do, unless they are read from the bed.
+#[test]
+fn law_only_surfaces_of_the_workpiece_grow_with_it() {
+    for name in MACHINES {
+        let [_, warm] = stated(name);
+        let cold_piece = warm.without_growth();
+        let [warm, cold_piece] = [&warm, &cold_piece].map(design_of);
+        let readings = rows(&mut SplitMix64::new(27), &warm.machine, warm.instruments.len());
+        let none = vec![0.0; warm.unknowns()];
+        for i in 0..readings.len() {
+            let of = &warm.instruments[readings.instruments[i] as usize];
+            let read =
+                |design: &Design| design.read(&readings, i, &none).expect("within the tables");
+            let grows = matches!(of.kind, Kind::CutPiece | Kind::TouchProbeFace | Kind::Points(_));
+            let may = grows && of.reference == Reference::Workpiece;
+            assert!(may || read(&warm) == read(&cold_piece), "{name}: {}", of.name);
+            let is_place = of.kind == Kind::CutPiece && may;
+            assert!(!is_place || read(&warm) != read(&cold_piece), "{name}: {}", of.name);
+        }
+    }
+}

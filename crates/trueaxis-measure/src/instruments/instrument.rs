@@ -261,11 +261,11 @@ impl Instrument {
         }
     }
 
-    /// The errors that it reads: light does not see the growth of the workpiece.
+    /// The errors that it reads: most instruments do not see the growth of the workpiece.
     pub fn errors_seen(&self, errors: &ErrorValues) -> ErrorValues {
-        match self.kind.measures_with_light() {
-            true => ErrorValues { workpiece_mm: Vec3::zeros(), ..*errors },
-            false => *errors,
+        match self.kind.reads_the_workpiece() {
+            true => *errors,
+            false => ErrorValues { workpiece_mm: Vec3::zeros(), ..*errors },
         }
     }
 

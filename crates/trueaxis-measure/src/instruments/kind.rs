@@ -93,10 +93,10 @@ impl Kind {
         matches!(self, Self::TouchProbeBall | Self::TouchProbeFace)
     }
 
-    /// Whether it measures with light between two of its own optics: the material of the workpiece is
-    /// not part of what it reads, however warm it is.
-    pub fn measures_with_light(self) -> bool {
-        matches!(self, Self::LaserLine | Self::LaserAngle | Self::LengthTracker)
+    /// Whether it reads surfaces of the workpiece, which grow with it. Light, and bodies of an instrument's own that stand on the
+    /// table (balls, bars, straightedges), do not: they only stand elsewhere, which is their set-up.
+    pub fn reads_the_workpiece(self) -> bool {
+        matches!(self, Self::CutPiece | Self::TouchProbeFace | Self::Points(_))
     }
 
     /// Whether the tool stays on a ball, or one length away from it, while rotary axes turn.

@@ -356,10 +356,10 @@ impl<'a> Groups<'a> {
         }
     }
 
-    /// The tool as a workpiece that is not at 20 °C sees it; neither light nor the bed sees its growth.
+    /// The tool as a workpiece that is not at 20 °C sees it; the bed, and most instruments, do not see its growth.
     fn grown(&self, instrument: &Instrument, i: usize, tool: Link) -> Link {
         let sees_growth =
-            instrument.reference == Reference::Workpiece && !instrument.kind.measures_with_light();
+            instrument.reference == Reference::Workpiece && instrument.kind.reads_the_workpiece();
         match self.design.machine.growth() {
             Some(growth) if sees_growth => {
                 let tip_mm = self.design.machine.nominal_tip_mm(&self.readings.commands[i]);
