@@ -15052,6 +15052,10 @@ export interface VerifyDocument {
    */
   places: PlacePartEntry[];
   /**
+   * What the readings make of what is stated of the set-up with an uncertainty.
+   */
+  set_up: SetUpEntry[];
+  /**
    * Every number.
    */
   deviations: DifferenceEntry[];
@@ -15133,6 +15137,25 @@ export interface PlacePartEntry {
    */
   line: number;
   [k: string]: number | null;
+}
+/**
+ * An unknown of the set-up: `deviation_um`, fitted − stated, and `u_um`, its standard uncertainty where machine file and statement are
+ * right; `…_urad`, `…_um_per_m`, `…_um_per_h` or `…_urad_per_h` by the kind of the unknown.
+ */
+export interface SetUpEntry {
+  /**
+   * The name of the instrument.
+   */
+  instrument: string;
+  /**
+   * The unknown.
+   */
+  unknown: string;
+  /**
+   * Whether the readings contradict machine file and statement together: the verdict is `fail` then.
+   */
+  is_contradicted: boolean;
+  [k: string]: number;
 }
 /**
  * One number: `deviation_um`, measured − expected, and `expanded_um`, its U, in µm; `…_urad` in µrad.
@@ -16555,6 +16578,10 @@ export interface Verify {
    * By place, the worst first.
    */
   places: PlacePartEntry[];
+  /**
+   * What the readings make of what is stated of the set-up with an uncertainty.
+   */
+  set_up: SetUpEntry[];
   /**
    * Every number.
    */

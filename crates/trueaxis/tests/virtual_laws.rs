@@ -18,6 +18,7 @@ use trueaxis::measure::virtual_campaign::{
     summarise,
 };
 use trueaxis::measure::{Campaign, Kind, Readings};
+use trueaxis::part::tolerance::Outcome;
 use trueaxis::verify::compare::{Comparison, ComparisonBasis, Decision, Rule, compare, pair};
 
 fn command(random: &mut Random, machine: &Machine) -> Command {
@@ -423,32 +424,39 @@ fn comparison(campaign: &Campaign, measured: Readings, against: ComparisonBasis)
     Comparison { name: "test".into(), campaign: campaign.clone(), measured, against, decision }
 }
 
+/// A probe on a ball, of which the place is known within these; the path of Lei and Hsu on it.
+fn on_a_ball(stated: &Machine, known: [Option<f64>; 3]) -> (Campaign, Path) {
+    let mut probe = probe_ball(stated);
+    let unknown = |i: usize| {
+        let error = SetupError::ReferencePoint(i);
+        SetupUnknown { name: format!("ball_{i}"), error, prior_u: known[i] }
+    };
+    probe.unknowns = [0, 1, 2].map(unknown).to_vec();
+    let campaign = campaign(stated, probe);
+    let angles = (0..24).map(|k| 15.0 * f64::from(k));
+    let commands: Vec<Command> =
+        angles.map(|phi| on_the_ball(90.0 - phi / 4.0, 90.0 - phi)).collect();
+    let path = path(&campaign, &commands, None);
+    (campaign, path)
+}
+
+/// Twelve even numbers less six: normal enough, with a standard deviation of 1.
+fn normal(random: &mut Random) -> f64 {
+    (0..12).map(|_| random.unit()).sum::<f64>() - 6.0
+}
+
 #[test]
 fn law_u_covers_what_it_should_over_many_campaigns() {
     let stated = with_uncertainties(&machine("lei-hsu-mill"));
-    let mut probe = probe_ball(&stated);
-    probe.unknowns = [0, 1, 2]
-        .map(|i| SetupUnknown {
-            name: format!("ball_{i}"),
-            error: SetupError::ReferencePoint(i),
-            prior_u: None,
-        })
-        .to_vec();
-    let campaign = campaign(&stated, probe);
-    let commands: Vec<Command> = (0..24)
-        .map(|k| 15.0 * f64::from(k))
-        .map(|phi| on_the_ball(90.0 - phi / 4.0, 90.0 - phi))
-        .collect();
+    let (campaign, path) = on_a_ball(&stated, [None; 3]);
     let mut random = Random(25);
     let (mut inside, mut count, mut noise_only, mut refused) = (0, 0, 0, 0);
     for seed in 0..400 {
-        let mut real = real(&campaign, &stated, path(&campaign, &commands, None));
+        let mut real = real(&campaign, &stated, path.clone());
         real.truth.seed = seed;
         real.disturb.noise = 1.0;
         real.truth.setups = vec![(0..3).map(|_| random.within(0.05)).collect()];
-        // Twelve even numbers less six: normal enough, with a standard deviation of 1.
-        let normal = || (0..12).map(|_| random.unit()).sum::<f64>() - 6.0;
-        real.truth.factors = Some(Drawn::new(&stated, normal));
+        real.truth.factors = Some(Drawn::new(&stated, || normal(&mut random)));
         let measured = read(&campaign, &real).readings;
         let against = ComparisonBasis::Prediction(Box::new(stated.clone()));
         let found = compare(&comparison(&campaign, measured.clone(), against)).expect("a fit");
@@ -470,6 +478,43 @@ fn law_u_covers_what_it_should_over_many_campaigns() {
     // move all readings together it is skewed, and one in twenty is refused (21 here).
     assert!(refused < 30, "{refused} of 400");
     assert!((noise_only as f64) < 0.8 * count as f64, "{noise_only} of {count}");
+}
+
+/// What is stated of the set-up is kept by right readings as its u says, and contradicted by a machine that fits only elsewhere,
+/// however many readings agree there.
+#[test]
+fn law_a_stated_set_up_is_contradicted_only_by_wrong_readings() {
+    let stated = with_uncertainties(&machine("lei-hsu-mill"));
+    let known = [0.02, 3e-3, 5e-4];
+    let (campaign, path) = on_a_ball(&stated, known.map(Some));
+    let mut random = Random(26);
+    let (mut squares, mut contradicted, runs) = ([0.0; 3], 0, 400);
+    for seed in 0..runs {
+        let mut real = real(&campaign, &stated, path.clone());
+        (real.truth.seed, real.disturb.noise) = (seed, 1.0);
+        real.truth.factors = Some(Drawn::new(&stated, || normal(&mut random)));
+        let mut verify = |off: [f64; 3]| {
+            real.truth.setups = vec![off.to_vec()];
+            let against = ComparisonBasis::Prediction(Box::new(stated.clone()));
+            let measured = read(&campaign, &real).readings;
+            compare(&comparison(&campaign, measured, against)).expect("a fit")
+        };
+        let right = verify(known.map(|u| u * normal(&mut random)));
+        for (sum, d) in squares.iter_mut().zip(&right.set_up) {
+            *sum += (d.value / d.u).powi(2);
+            contradicted += u32::from(d.is_contradicted());
+        }
+        let wrong = verify([0.0, 0.0, 0.05]);
+        assert!(
+            wrong.set_up[2].is_contradicted() && wrong.outcome == Outcome::Fail,
+            "{:?}",
+            wrong.set_up
+        );
+    }
+    // 1 ± 0.07 is the standard deviation of such a mean; one in a thousand is contradicted.
+    let means = squares.map(|sum| sum / runs as f64);
+    assert!(means.iter().all(|m| (0.75..1.25).contains(m)), "{means:?}");
+    assert!(contradicted < 8, "{contradicted}");
 }
 
 #[test]

@@ -4434,6 +4434,8 @@ class VerifyDocument(Record):
     instruments: List[VerifyDocument.PartEntry]
     #: By place, the worst first.
     places: List[VerifyDocument.PlacePartEntry]
+    #: What the readings make of what is stated of the set-up with an uncertainty.
+    set_up: List[VerifyDocument.SetUpEntry]
     #: Every number.
     deviations: List[VerifyDocument.DifferenceEntry]
     #: The problems found in the input; the command line prints them on standard error, too. May be absent.
@@ -4475,6 +4477,15 @@ class VerifyDocument(Record):
         group: int
         #: A line of the readings there.
         line: int
+
+    class SetUpEntry(Record):
+        """An unknown of the set-up: `deviation_um`, fitted − stated, and `u_um`, its standard uncertainty where machine file and statement are right; `…_urad`, `…_um_per_m`, `…_um_per_h` or `…_urad_per_h` by the kind of the unknown."""
+        #: The name of the instrument.
+        instrument: str
+        #: The unknown.
+        unknown: str
+        #: Whether the readings contradict machine file and statement together: the verdict is `fail` then.
+        is_contradicted: bool
 
     class DifferenceEntry(Record):
         """One number: `deviation_um`, measured − expected, and `expanded_um`, its U, in µm; `…_urad` in µrad."""

@@ -2,7 +2,7 @@
 
 use super::certificate::standing;
 use crate::verify::compare::{
-    Comparison, ComparisonBasis, ComparisonResult, Coverage, Rule, Summary,
+    Comparison, ComparisonBasis, ComparisonResult, Coverage, Rule, SetUpDeviation, Summary,
 };
 use trueaxis_measure::measure::virtual_campaign::shown_unit;
 use trueaxis_report::{Band, Picture, Report, Scatter, Section, Table};
@@ -40,6 +40,9 @@ fn coverage_words(coverage: &Coverage) -> String {
 }
 
 fn reason(task: &Comparison, verified: &ComparisonResult) -> String {
+    if verified.set_up.iter().any(SetUpDeviation::is_contradicted) {
+        return "the readings agree with the machine file only in another set-up than the stated one".to_owned();
+    }
     let [pass, fail, open] = verified.counts;
     match task.decision.rule {
         Rule::Coverage => coverage_words(&verified.coverage),
@@ -66,9 +69,24 @@ pub fn comparison_report<'a>(task: &'a Comparison, verified: &'a ComparisonResul
         .line(format!("rule: {}", rule(task)))
         .line(coverage_words(&verified.coverage))
         .verdict(standing(verified.outcome), word, reason(task, verified))
+        .sections(set_up(task, verified))
         .section(Section::new("By instrument").table(instruments(task, verified)))
         .section(Section::new("The worst places").table(places(task, verified)))
         .sections(pictures.map(|p| Section::from(Picture::Scatter(p))))
+}
+
+/// What is stated of the set-up against what fits; nothing where nothing is stated.
+fn set_up<'a>(task: &'a Comparison, verified: &'a ComparisonResult) -> Option<Section<'a>> {
+    let headings = ["instrument", "unknown", "fitted − stated", "u", "unit", "agrees"];
+    let rows = verified.set_up.iter().map(|d| {
+        let agrees = if d.is_contradicted() { "no" } else { "yes" };
+        let instrument = task.campaign.instruments[d.instrument].name.clone();
+        let [value, u] = [d.value, d.u].map(|v| format!("{v:.2}"));
+        [instrument, d.unknown.clone(), value, u, d.unit[1].to_owned(), agrees.to_owned()]
+    });
+    let note = "u: of the difference where machine file and statement are right";
+    let section = || Section::new("Set-up").table(Table::new(headings).rows(rows).note(note));
+    (!verified.set_up.is_empty()).then(section)
 }
 
 fn instruments(task: &Comparison, verified: &ComparisonResult) -> Table {

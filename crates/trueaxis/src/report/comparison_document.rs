@@ -40,8 +40,25 @@ pub struct VerifyDocument<'a> {
     pub instruments: Vec<PartEntry<'a>>,
     /// By place, the worst first.
     pub places: Vec<PlacePartEntry<'a>>,
+    /// What the readings make of what is stated of the set-up with an uncertainty.
+    pub set_up: Vec<SetUpEntry<'a>>,
     /// Every number.
     pub deviations: Vec<DifferenceEntry<'a>>,
+}
+
+/// An unknown of the set-up: `deviation_um`, fitted − stated, and `u_um`, its standard uncertainty where machine file and statement are
+/// right; `…_urad`, `…_um_per_m`, `…_um_per_h` or `…_urad_per_h` by the kind of the unknown.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct SetUpEntry<'a> {
+    /// The name of the instrument.
+    pub instrument: &'a str,
+    /// The unknown.
+    pub unknown: &'a str,
+    /// Whether the readings contradict machine file and statement together: the verdict is `fail` then.
+    pub is_contradicted: bool,
+    /// Deviation and uncertainty.
+    #[serde(flatten)]
+    pub values: Keyed<f64>,
 }
 
 /// A share of numbers within U.
@@ -119,6 +136,16 @@ impl<'a> VerifyDocument<'a> {
             let line = verified.readings.lines[d.row];
             DifferenceEntry::of(&task.campaign.instruments[instrument], line, d)
         });
+        let set_up = verified.set_up.iter().map(|d| {
+            let unit = d.unit[0];
+            let values = [(format!("deviation_{unit}"), d.value), (format!("u_{unit}"), d.u)];
+            SetUpEntry {
+                instrument: &task.campaign.instruments[d.instrument].name,
+                unknown: &d.unknown,
+                is_contradicted: d.is_contradicted(),
+                values: values.into_iter().collect(),
+            }
+        });
         let [pass, fail, undecided] = verified.counts;
         Self {
             schema: "trueaxis/verify/1",
@@ -137,6 +164,7 @@ impl<'a> VerifyDocument<'a> {
             coverage: CoverageEntry::from(&verified.coverage),
             instruments: verified.instruments.iter().map(|p| part(p, p.index)).collect(),
             places: places.collect(),
+            set_up: set_up.collect(),
             deviations: deviations.collect(),
         }
     }

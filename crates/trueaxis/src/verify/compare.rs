@@ -15,9 +15,11 @@
 
 mod file;
 mod pairs;
+mod set_up;
 
 pub use file::read_comparison;
 pub use pairs::{Pairs, pair};
+pub use set_up::SetUpDeviation;
 
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeMap;
@@ -177,6 +179,8 @@ pub struct ComparisonResult {
     pub places: Vec<PlaceSummary>,
     /// How many numbers pass, fail, or are undecided.
     pub counts: [usize; 3],
+    /// What the readings make of what is stated of the set-up.
+    pub set_up: Vec<SetUpDeviation>,
     /// The verdict.
     pub outcome: Outcome,
 }
@@ -213,7 +217,8 @@ pub fn compare(task: &Comparison) -> Result<ComparisonResult, FitError> {
         }
     }
     let before = before.map(|b| b.residuals);
-    let judged = Judged { k, independent: spread.independent, before: before.as_deref() };
+    let (independent, before) = (spread.independent, before.as_deref());
+    let judged = Judged { k, independent, before, set_up: spread.set_up };
     Ok(ComparisonResult::new(task, readings.clone(), deviations, &judged))
 }
 
@@ -224,6 +229,7 @@ struct Judged<'a> {
     independent: f64,
     /// Residuals with the nominal machine.
     before: Option<&'a [[f64; 3]]>,
+    set_up: Vec<SetUpDeviation>,
 }
 
 impl ComparisonResult {
@@ -261,15 +267,18 @@ impl ComparisonResult {
                 Outcome::Undecided => 2,
             }] += 1;
         }
+        let set_up = judged.set_up.clone();
         let outcome = match (task.decision.rule, counts) {
             _ if deviations.is_empty() => Outcome::Undecided,
+            // What agrees only with another set-up than the stated one does not agree.
+            _ if set_up.iter().any(SetUpDeviation::is_contradicted) => Outcome::Fail,
             (Rule::Coverage, _) if coverage.is_enough() => Outcome::Pass,
             (Rule::Coverage, _) => Outcome::Fail,
             (_, [_, 0, 0]) => Outcome::Pass,
             (_, [_, 0, _]) => Outcome::Undecided,
             _ => Outcome::Fail,
         };
-        Self { readings, deviations, coverage, instruments, places, counts, outcome }
+        Self { readings, deviations, coverage, instruments, places, counts, set_up, outcome }
     }
 }
 
@@ -351,6 +360,8 @@ fn twice(instrument: &Instrument) -> Instrument {
 /// Readings minus the prediction of a machine with the best-fitting set-up.
 struct Fitted {
     residuals: Vec<[f64; 3]>,
+    /// The set-up.
+    values: Vec<f64>,
     /// Of the set-up.
     covariance: DMatrix<f64>,
     instruments: Vec<Instrument>,
@@ -367,8 +378,8 @@ impl Fitted {
         let instruments = design.instruments.clone();
         if design.unknowns() > 0 {
             let found = fit(&design, readings, &[])?;
-            let (residuals, covariance) = (found.residuals, found.covariance);
-            return Ok(Self { residuals, covariance, instruments });
+            let (residuals, values) = (found.residuals, found.values);
+            return Ok(Self { residuals, values, covariance: found.covariance, instruments });
         }
         if readings.is_empty() {
             return Err(FitError::NoReadings);
@@ -380,7 +391,8 @@ impl Fitted {
         };
         let residuals: Result<Vec<[f64; 3]>, FitError> =
             (0..readings.len()).map(residual).collect();
-        Ok(Self { residuals: residuals?, covariance: DMatrix::zeros(0, 0), instruments })
+        let (values, covariance) = (Vec::new(), DMatrix::zeros(0, 0));
+        Ok(Self { residuals: residuals?, values, covariance, instruments })
     }
 
     /// The standard uncertainty of every residual: noise, and the stated errors of the machine,
@@ -433,7 +445,8 @@ impl Fitted {
             }
         }
         let pairs = (gram.norm_squared() - own).max(0.0);
-        Spread { u: found, independent: 1.0 / (1.0 + pairs / f64::max(count, 1.0)) }
+        let set_up = set_up::deviations(&self.instruments, &self.values, &self.covariance, &taken);
+        Spread { u: found, independent: 1.0 / (1.0 + pairs / f64::max(count, 1.0)), set_up }
     }
 }
 
@@ -443,6 +456,7 @@ struct Spread {
     u: Vec<[f64; 3]>,
     /// The equivalent share of independent ones.
     independent: f64,
+    set_up: Vec<SetUpDeviation>,
 }
 
 /// The errors that are not known exactly at some of these commands, each as one factor.
@@ -500,7 +514,7 @@ mod tests {
             expanded: 1.0,
         };
         let some: Vec<Deviation> = (0..100).map(deviation).collect();
-        let alone = Judged { k: 2.0, independent: 1.0, before: None };
+        let alone = Judged { k: 2.0, independent: 1.0, before: None, set_up: Vec::new() };
         let interval = coverage(&some, &alone).interval;
         assert!((interval[0] - 0.8882).abs() < 1e-3 && (interval[1] - 0.9785).abs() < 1e-3);
     }
