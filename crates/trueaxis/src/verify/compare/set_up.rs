@@ -23,7 +23,7 @@ pub struct SetUpDeviation {
     pub unknown: String,
     /// Fitted less stated. Unit: µm, µrad, µm/m or by the hour.
     pub value: f64,
-    /// Its standard uncertainty where machine file and statement are right. Unit: as of the value.
+    /// Its standard uncertainty where machine file and statement are right. Unit: µm, µrad, µm/m or by the hour.
     pub u: f64,
     /// Key and symbol of this unit.
     pub unit: [&'static str; 2],
