@@ -220,3 +220,33 @@ fn law_the_shipped_readings_come_from_their_seed() {
     }
     assert_eq!(measured.approaches, shipped.approaches);
 }
+
+/// What the control compensates by active tables is no error of the machine that is measured: readings are those of the machine
+/// without it, a note says so, and a warning where just that error is to be found.
+#[test]
+fn law_readings_are_those_of_the_machine_as_it_runs() {
+    let folder = Folder::new("running");
+    let stated = |active: &str, value: &str| {
+        format!(
+            "{MACHINE}[compensation]\nactive = [{active}]\n[motion.X]\n\
+             EXX = {{ polynomial = [\"0 um\", \"{value}\"], scale = \"100 mm\" }}\n"
+        )
+    };
+    let measured = |active: &str, value: &str, unknown: &str| {
+        folder.put("machine.toml", &stated(active, value));
+        let path = folder.put("campaign.toml", &format!("{CAMPAIGN}{unknown}{PATH}"));
+        let (read, problems) =
+            read_campaign(&disk(), &path, |root, campaign| read_virtual(root, campaign, None));
+        let (campaign, real) = read.unwrap_or_else(|| panic!("{problems:?}"));
+        (measure(&campaign, &real).expect("readings").readings.values, codes(&problems))
+    };
+    let unknown = "[unknown.motion]\nEXX = \"polynomial 1\"\n";
+    let (on, notes) = measured("\"EXX\"", "-20 um", "");
+    let (none, quiet) = measured("", "0 um", "");
+    let (off, _) = measured("", "-20 um", "");
+    assert_eq!(on, none);
+    assert_ne!(on, off);
+    let said = |codes: &[&str]| codes.iter().filter(|code| **code == "already-active").count();
+    let (_, listed) = measured("\"EXX\"", "-20 um", unknown);
+    assert_eq!([said(&notes), said(&quiet), said(&listed)], [1, 0, 2]);
+}

@@ -12,6 +12,7 @@ use crate::instruments::instrument::{Assumed, Instrument, Reads, SetupError, Set
 use crate::unknowns::design::Design;
 use crate::unknowns::minimal::minimal_location_errors;
 use crate::unknowns::term::{Shape, Term};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
 use trueaxis_input::foreign;
@@ -145,6 +146,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Campaign> {
         }
     };
     let terms = root.section("unknown", |s| read_unknown(s, &machine)).unwrap_or_default();
+    let machine = running(root, machine, &terms);
     root.require("instrument", "[instrument.probe] kind = \"probe-ball\"");
     // Stages calibrate what they need, as a prior does.
     let assumes = root.get("stage").is_none() && root.get("prior").is_none();
@@ -184,6 +186,32 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Campaign> {
         tables,
         stages: Stages { list, prior },
     })
+}
+
+/// The machine as its readings show it: what its control compensates by active tables is no error of it; a note says which. An
+/// unknown error among them is what is left of it, which no machine file can state together with `active`.
+fn running(root: &Section<'_>, machine: Machine, terms: &[Term]) -> Machine {
+    let Some(names) = machine.active_names() else { return machine };
+    let place = root.get("machine").map(|i| i.place()).unwrap_or_default();
+    let mut problems = Diagnostics::new();
+    let message = format!("readings are those without {names}: the control compensates them");
+    let hint =
+        "take out of [compensation] active what was switched off when the readings were taken";
+    problems.note("already-active", place.clone(), message, hint);
+    let listed =
+        terms.iter().map(|t| t.error).filter(|e| machine.active_compensation().contains(e));
+    let listed: BTreeSet<String> = listed.map(|e| e.to_string()).collect();
+    if !listed.is_empty() {
+        let listed = listed.into_iter().collect::<Vec<_>>().join(" ");
+        let message = format!(
+            "unknown here is {listed}, whose tables are active in the control: readings show what is left, and a machine file \
+             that states this counts it as zero as long as `active` names it"
+        );
+        let hint = "measure with the tables switched off and take it out of [compensation] active";
+        problems.warn("already-active", place, message, hint);
+    }
+    root.take_over(problems);
+    machine.as_running()
 }
 
 /// `[unknown]`: `location = "minimal"`, `"all"` or names; `[unknown.motion] EXC = "fourier 2"`;

@@ -150,7 +150,7 @@ fn read_machine(item: &Item<'_>, campaign: &Campaign, truth: &mut Truth) {
         item.warn("other-place", message, "is the tool or the workpiece another one?");
     }
     let Some(machine) = at_temperatures(item, campaign, machine) else { return };
-    truth.machine = machine;
+    truth.machine = machine.as_running();
     truth.machine_path = Some(path);
 }
 
