@@ -127,6 +127,9 @@ impl Sums {
 
 /// Into which part each reading goes: readings of one group or of one place stay together.
 ///
+/// The places are numbered in their own order (instrument, positions, direction), whatever the order of the rows: the parts,
+/// and with them the terms that are chosen, depend on what was measured only. Places are dealt out instrument by instrument:
+/// every part has its share of each, and none of the few readings of a laser among many of a ball.
 /// Returns the part of every row and how many places there are.
 pub fn parts_by_place(readings: &Readings, folds: usize) -> (Vec<usize>, usize) {
     let key = |i: usize| {
@@ -135,15 +138,21 @@ pub fn parts_by_place(readings: &Readings, folds: usize) -> (Vec<usize>, usize) 
         let n = [direction.x, direction.y, direction.z].map(|v| (v * 1e6).round() as i64);
         (readings.instruments[i], command, n)
     };
-    let mut places = BTreeMap::new();
-    let place_of: Vec<usize> = (0..readings.len())
-        .map(|i| {
-            let next = places.len();
-            *places.entry(key(i)).or_insert(next)
-        })
-        .collect();
+    let keys: Vec<_> = (0..readings.len()).map(key).collect();
+    let mut places = keys.clone();
+    places.sort_unstable();
+    places.dedup();
+    // Every key is among them.
+    let place_of: Vec<usize> =
+        keys.iter().map(|key| places.partition_point(|place| place < key)).collect();
     let count = places.len();
     let mut union: Vec<usize> = (0..count).collect();
+    // Directions that were read at one pose are one place, in whichever rows they stand.
+    for next in
+        (1..count).filter(|k| (places[*k].0, places[*k].1) == (places[k - 1].0, places[k - 1].1))
+    {
+        union[next] = root(&mut union, next - 1);
+    }
     let mut first_of_group: BTreeMap<u32, usize> = BTreeMap::new();
     for (i, place) in place_of.iter().enumerate() {
         let first = *first_of_group.entry(readings.groups[i]).or_insert(*place);
@@ -159,8 +168,8 @@ pub fn parts_by_place(readings: &Readings, folds: usize) -> (Vec<usize>, usize) 
         roots = (0..count).collect();
         distinct.clone_from(&roots);
     }
-    // Mixed, always the same way, then dealt out.
-    distinct.sort_by_key(|place| SplitMix64::new(*place as u64).bits());
+    // Those of each instrument mixed, always the same way, then dealt out.
+    distinct.sort_by_key(|place| (places[*place].0, SplitMix64::new(*place as u64).bits()));
     let folds = folds.min(distinct.len()).max(1);
     let mut part = vec![0; count];
     for (i, place) in distinct.iter().enumerate() {
