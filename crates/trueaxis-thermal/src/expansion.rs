@@ -184,12 +184,22 @@ fn residuals(data: &Runs, p: &[f64], t: &[f64], per_k: f64) -> Vec<Vec<f64>> {
 }
 
 impl Runs {
-    /// Where the laser was set to zero: the end of the table at which the runs read less, mm.
+    /// Where the laser was set to zero: the end of the travel, by its position and not by its row, at which the runs read
+    /// less, mm. Of ends that read the same it is the lower one.
     pub fn zero_mm(&self) -> f64 {
-        let ends = [0, self.positions_mm.len().saturating_sub(1)];
+        let Some(low) = self.positions_mm.iter().copied().reduce(f64::min) else { return 0.0 };
+        let high = self.positions_mm.iter().copied().fold(low, f64::max);
+        match self.mean_size_at(low) <= self.mean_size_at(high) {
+            true => low,
+            false => high,
+        }
+    }
+
+    /// How much the runs read at a position in the mean of its rows, without the sign, mm.
+    fn mean_size_at(&self, position_mm: f64) -> f64 {
+        let rows = || (0..self.positions_mm.len()).filter(|i| self.positions_mm[*i] == position_mm);
         let size = |i: usize| self.runs.iter().map(|run| run.errors_mm[i].abs()).sum::<f64>();
-        let zero = if size(ends[0]) <= size(ends[1]) { ends[0] } else { ends[1] };
-        self.positions_mm.get(zero).copied().unwrap_or(0.0)
+        rows().map(size).sum::<f64>() / rows().count().max(1) as f64
     }
 }
 

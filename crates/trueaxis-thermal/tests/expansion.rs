@@ -101,6 +101,37 @@ fn law_a_table_holds_at_its_temperature_whatever_the_order() {
     }
 }
 
+/// The end at which the laser was set to zero is a place, not a row: table and u are the same in every order of the rows.
+#[test]
+fn law_neither_the_table_nor_its_u_follow_the_order_of_rows() {
+    let mut data = made(8.6e-6, &[29.3, 33.8], scatter);
+    data.laser.u_mm = Some(5e-4);
+    let rows = data.positions_mm.len();
+    for zero_mm in [0.0, 2300.0] {
+        // The laser was set to zero there in every run.
+        let at = if zero_mm == 0.0 { 0 } else { rows - 1 };
+        for run in &mut data.runs {
+            let read = run.errors_mm[at];
+            run.errors_mm.iter_mut().for_each(|e| *e -= read);
+        }
+        let first = table_at(&data, 20.0);
+        // k steps on, 7 rows at a time: 11 rows have no common divisor with 7.
+        for k in 0..rows {
+            let order: Vec<usize> = (0..rows).map(|i| (k + 7 * i) % rows).collect();
+            let mut other = data.clone();
+            other.positions_mm = order.iter().map(|i| data.positions_mm[*i]).collect();
+            for (run, own) in other.runs.iter_mut().zip(&data.runs) {
+                run.errors_mm = order.iter().map(|i| own.errors_mm[*i]).collect();
+            }
+            assert_eq!(other.zero_mm(), zero_mm, "{order:?}");
+            let other = table_at(&other, 20.0);
+            let equal = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-13);
+            assert!(equal(&first.errors_mm, &other.errors_mm), "{order:?}");
+            assert!(equal(&first.u_mm, &other.u_mm), "{order:?}");
+        }
+    }
+}
+
 /// u of a table far from the temperatures of the runs grows as p (T - T_mean) u_alpha.
 #[test]
 fn a_table_far_from_its_runs_is_less_certain() {
