@@ -277,6 +277,27 @@ fn active_compensations_are_not_written() {
     );
 }
 
+/// What a circle changes of a table still holds at the temperature of the table: the scale grows from there.
+#[test]
+fn law_a_changed_table_holds_at_its_temperature() {
+    let real = machine(&head("w b X Y Z t", ""));
+    let circle = circle_on(&real, ['X', 'Y'], 0.0);
+    let text = table(&circle, &real, 0.0, &mut SplitMix64::new(2));
+    let scale = "[scale.X]\nexpansion = \"10 um/(m K)\"\nfixed_point = \"0 mm\"\n\
+                 sensors = { x = \"0 mm\" }\n[motion.X]\n";
+    let curve = "EXX = { polynomial = [\"0 um\", \"9 um\"], scale = \"150 mm\"";
+    for celsius in [20.0, 28.4, 31.7] {
+        let measured = format!("measured = {{ temperature = \"{celsius} degC\" }}");
+        for stated in [format!("{measured}\n{curve} }}\n"), format!("{curve}, {measured} }}\n")] {
+            let old = head("w b X Y Z t", "") + scale + &stated;
+            let made = written(&old, &circle, &evaluated(&circle, ['X', 'Y'], &text, Some(1e-5)));
+            assert!(made.written.iter().any(|w| w.name.to_string() == "EXX"), "{}", made.text);
+            let new = machine(&made.text);
+            assert_eq!(new.heat().scales[0].anchor.table_celsius, celsius, "{}", made.text);
+        }
+    }
+}
+
 /// Without a calibrated length only the difference of the scales is known: u of either contains the rest.
 #[test]
 fn an_uncalibrated_bar_does_not_claim_the_scales() {

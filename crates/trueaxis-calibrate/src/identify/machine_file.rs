@@ -11,8 +11,11 @@ use trueaxis_input::Severity;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, MAX_AXES};
 use trueaxis_machine::describe::lines::Lines;
-use trueaxis_machine::describe::replacement::{Entry, curve_text, plain, put, take_out_of_table};
-use trueaxis_machine::errors::{ErrorKind, ErrorName};
+use trueaxis_machine::describe::replacement::{
+    Entry, curve_text, keep_table_temperatures, measured_in_place_of, measured_text, plain, put,
+    take_out_of_table,
+};
+use trueaxis_machine::errors::{ErrorKind, ErrorName, StatedError};
 use trueaxis_machine::file::Tables;
 use trueaxis_measure::measure::Campaign;
 use trueaxis_measure::unknowns::term::{Term, stated};
@@ -45,6 +48,7 @@ pub fn machine_file(
         take_out_of_table(&mut file, name, &origin, &mut tables, beside);
         put(&mut file, name, &entry, &origin);
     }
+    keep_table_temperatures(&mut file, old, &tables, beside, &origin)?;
     let text = file.text();
     read_back(found, &text, &tables, beside)?;
     Ok(MachineFile { text, tables })
@@ -107,10 +111,22 @@ fn entry(
         return Entry::Value(format!("\"{value} ± {} {unit}\"", plain(u * scale)));
     }
     let u = largest_u(found.reach, &found.fit.covariance, terms);
-    let measured = format!(", measured = {{ instrument = {origin:?} }} }}");
+    let measured = measured_of(&campaign.machine, name, origin);
     let is_rotary =
         terms[0].1.axis.is_some_and(|i| campaign.machine.axes()[i].kind == AxisKind::Rotary);
     Entry::Value(curve_text(name, is_rotary, &stated(&values, None), u, tables) + &measured)
+}
+
+/// The end of the text of a curve that was found: with which instruments, and at which temperature it holds.
+pub(super) fn measured_of(machine: &Machine, name: ErrorName, origin: &str) -> String {
+    let measured = measured_in_place_of(stated_in(machine, name), origin);
+    measured_text(&measured).map_or(" }".to_owned(), |text| format!(", measured = {text} }}"))
+}
+
+/// What a machine states of an error.
+pub(super) fn stated_in(machine: &Machine, name: ErrorName) -> Option<&StatedError> {
+    let index = machine.error_index(name)?;
+    machine.bodies()[index.body].stated(index.kind, index.component)
 }
 
 /// The greatest standard uncertainty of one error over the reach of its axis, from the covariance of its terms.
@@ -200,10 +216,7 @@ fn machine_of(text: &str, beside: &dyn Tables) -> Result<Machine, String> {
 
 /// `Err`: a location error is read as another value.
 fn check_location(machine: &Machine, name: ErrorName, value: f64) -> Result<(), String> {
-    let index = machine.error_index(name);
-    let stated =
-        index.and_then(|i| machine.bodies()[i.body].stated(ErrorKind::Location, i.component));
-    let read = stated.and_then(|s| s.at(0.0, 0.0).ok()).unwrap_or(f64::NAN);
+    let read = stated_in(machine, name).and_then(|s| s.at(0.0, 0.0).ok()).unwrap_or(f64::NAN);
     match (read - value).abs() <= 2e-9 {
         true => Ok(()),
         false => Err(format!("{name} would be read as another value")),

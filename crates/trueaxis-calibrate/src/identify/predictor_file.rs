@@ -8,7 +8,7 @@
 
 use super::covariance_file::head;
 use super::errors::Identification;
-use super::machine_file::{MachineFile, largest_u, one_line, origin};
+use super::machine_file::{MachineFile, largest_u, measured_of, one_line, origin, stated_in};
 use super::predictor::Predictor;
 use super::records::Records;
 use super::score::Rms;
@@ -19,7 +19,8 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::AxisKind;
 use trueaxis_machine::describe::lines::Lines;
 use trueaxis_machine::describe::replacement::{
-    Entry, curve_text_by, machine_of_text, put, quoted, take_out_of_table,
+    Entry, NewTables, curve_text_by, keep_table_temperatures, machine_of_text, put, quoted,
+    take_out_of_table,
 };
 use trueaxis_machine::errors::{Curve, ErrorKind, ErrorName, Harmonic, StatedError};
 use trueaxis_machine::file::Tables;
@@ -109,45 +110,27 @@ pub fn predictor_file(
     let errors = errors(campaign, predictor);
     let (mut file, mut tables) = (Lines::of(old), Vec::new());
     for (name, predicted) in &errors {
-        let entry = entry((found, predictor), (*name, predicted), &origin, &mut tables)?;
+        let measured = measured_of(&campaign.machine, *name, &origin);
+        let entry = entry((found, predictor), (*name, predicted), &measured, &mut tables)?;
         take_out_of_table(&mut file, *name, &origin, &mut tables, beside);
         put(&mut file, *name, &entry, &origin);
     }
     name_covariance(&mut file, &origin, &scored_words(found, predictor), covariance_name);
     let covariance = covariance_text((campaign, found, predictor), (records, date), &errors);
-    let text = file.text();
     let made = [&tables[..], &[(covariance_name.to_owned(), covariance.clone())]].concat();
-    let read = machine_of_text(&text, &With { made: &made, beside })?;
+    keep_table_temperatures(&mut file, old, &made, beside, &origin)?;
+    let text = file.text();
+    let read = machine_of_text(&text, &NewTables::of(&made, beside))?;
     if read.joint().is_none() {
         return Err("its covariance would not be read".to_owned());
     }
     Ok(PredictorFile { machine: MachineFile { text, tables }, covariance })
 }
 
-/// Tables that were made, before those beside the old file.
-struct With<'a> {
-    made: &'a [(String, String)],
-    beside: &'a dyn Tables,
-}
-
-impl Tables for With<'_> {
-    fn text(&self, name: &str) -> Result<String, String> {
-        let made = self.made.iter().find(|(n, _)| n == name);
-        made.map_or_else(|| self.beside.text(name), |(_, text)| Ok(text.clone()))
-    }
-
-    fn display(&self, name: &str) -> String {
-        self.beside.display(name)
-    }
-}
-
 /// Every error with its terms; those that were unknown and have none are in it without any.
 fn errors(campaign: &Campaign, predictor: &Predictor) -> BTreeMap<ErrorName, Predicted> {
     let design = &predictor.design;
-    let before = |error: ErrorName| {
-        let index = design.machine.error_index(error)?;
-        design.machine.bodies()[index.body].stated(index.kind, index.component).cloned()
-    };
+    let before = |error: ErrorName| stated_in(&design.machine, error).cloned();
     let new = |error| Predicted { terms: Vec::new(), before: before(error) };
     let mut all: BTreeMap<ErrorName, Predicted> = BTreeMap::new();
     for term in campaign.terms.iter().filter(|t| is_made(t)) {
@@ -169,7 +152,7 @@ fn is_made(term: &Term) -> bool {
 fn entry(
     (found, predictor): (&Identification, &Predictor),
     (name, predicted): (ErrorName, &Predicted),
-    origin: &str,
+    measured: &str,
     tables: &mut Vec<(String, String)>,
 ) -> Result<Entry, String> {
     let terms = &predicted.terms;
@@ -198,7 +181,7 @@ fn entry(
     let is_rotary = name.body.is_rotary();
     let exact = |v: f64| v.to_string();
     let curve = curve_text_by(exact, (name, is_rotary), &sum, u, tables);
-    Ok(Entry::Value(format!("{curve}, measured = {{ instrument = {} }} }}", quoted(origin))))
+    Ok(Entry::Value(curve + measured))
 }
 
 /// Functions that one curve can state together; 0: with all.

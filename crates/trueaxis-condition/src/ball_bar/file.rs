@@ -7,7 +7,8 @@ use std::fmt::Write as _;
 use trueaxis_machine::Machine;
 use trueaxis_machine::describe::lines::Lines;
 use trueaxis_machine::describe::replacement::{
-    Entry, NewTables, curve_text, machine_of_text, plain, put, quoted, take_out_of_table,
+    Entry, NewTables, curve_text, machine_of_text, measured_in_place_of, measured_text, plain, put,
+    take_out_of_table,
 };
 use trueaxis_machine::errors::{
     Curve, ErrorIndex, ErrorName, Extrapolation, StatedError, Uncertainty,
@@ -114,7 +115,8 @@ fn u_of(of: &Of<'_>, old: Option<&StatedError>, unknown_mm: f64, bar: &BallBar<'
     new.hypot(kept)
 }
 
-/// An error motion in the form of the file; a table goes into `tables`.
+/// An error motion in the form of the file, which holds at the temperature of the one that was changed; a table goes
+/// into `tables`.
 fn motion_text(
     name: ErrorName,
     stated: &StatedError,
@@ -122,7 +124,8 @@ fn motion_text(
     origin: &str,
     tables: &mut Vec<(String, String)>,
 ) -> Result<String, String> {
-    let measured = format!(", measured = {{ instrument = {} }} }}", quoted(origin));
+    let measured = measured_text(&measured_in_place_of(Some(stated), origin));
+    let measured = measured.map_or(" }".to_owned(), |text| format!(", measured = {text} }}"));
     let Curve::Table { spline, outside } = &stated.mean else {
         if matches!(stated.mean, Curve::Fourier { .. }) {
             return Err(format!(

@@ -2,7 +2,7 @@
 
 use super::lines::{Lines, header};
 use crate::Machine;
-use crate::errors::{Curve, ErrorName, Harmonic, StatedError};
+use crate::errors::{Curve, ErrorName, Harmonic, Measurement, StatedError};
 use crate::file::Tables;
 use std::cell::RefCell;
 use std::fmt::Write as _;
@@ -208,6 +208,66 @@ pub fn curve_text_by(
     text
 }
 
+/// How an error was measured as the value of `measured`: `{ instrument = "…", date = "…", temperature = "28.4 degC" }`;
+/// `None`: nothing is known of it. All writers of machine files take it from here.
+pub fn measured_text(measured: &Measurement) -> Option<String> {
+    let texts = [("instrument", &measured.instrument), ("date", &measured.date)];
+    let of = |(key, text): (&str, &Option<String>)| {
+        text.as_ref().map(|text| format!("{key} = {}", quoted(text)))
+    };
+    let mut parts: Vec<String> = texts.into_iter().filter_map(of).collect();
+    // All digits: `table_temperature` of the scale may state the same temperature, and two are refused.
+    let celsius = measured.temperature_celsius;
+    parts.extend(celsius.map(|c| format!("temperature = \"{c} degC\"")));
+    (!parts.is_empty()).then(|| format!("{{ {} }}", parts.join(", ")))
+}
+
+/// How a curve was measured that was found in addition to what the machine says of heat: by `origin`, and at the temperature
+/// of the table in whose place it stands, as the scale grows from there (docs/model.md eq. 81).
+pub fn measured_in_place_of(before: Option<&StatedError>, origin: &str) -> Measurement {
+    Measurement {
+        instrument: Some(origin.to_owned()),
+        date: None,
+        temperature_celsius: before.and_then(|stated| stated.measured.temperature_celsius),
+    }
+}
+
+/// States with a scale the temperature of its error table where it stood with a curve that the new text has no more: the
+/// scale grows from there, whether there is a table or not.
+///
+/// # Errors
+/// In words, why the new text is no machine file whose scales grow from the temperatures of the old one.
+pub fn keep_table_temperatures(
+    file: &mut Lines,
+    old: &str,
+    made: &[(String, String)],
+    beside: &dyn Tables,
+    origin: &str,
+) -> Result<(), String> {
+    let old = machine_of_text(old, beside)?;
+    let moved = |file: &Lines| -> Result<Vec<(String, f64)>, String> {
+        let new = machine_of_text(&file.text(), &NewTables::of(made, beside))?;
+        let celsius = |machine: &Machine, axis: usize| {
+            let scale = machine.heat().scales.iter().find(|scale| scale.axis == axis);
+            scale.map(|scale| scale.anchor.table_celsius)
+        };
+        let axes = old.axes().iter().enumerate();
+        let of = |(axis, _): &(usize, _)| celsius(&old, *axis) != celsius(&new, *axis);
+        let of_axes = axes.filter(of);
+        Ok(of_axes
+            .filter_map(|(i, axis)| Some((format!("scale.{}", axis.name), celsius(&old, i)?)))
+            .collect())
+    };
+    let before = moved(file)?;
+    for (header, celsius) in &before {
+        file.add(header, &format!("table_temperature = \"{celsius} degC\" # {origin}"));
+    }
+    match before.is_empty() || moved(file)?.is_empty() {
+        true => Ok(()),
+        false => Err("its scales would grow from another temperature".to_owned()),
+    }
+}
+
 /// A text as TOML writes it, with its quotes.
 ///
 /// ```
@@ -240,6 +300,7 @@ pub fn plain(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::file::NoTables;
 
     #[test]
     fn only_the_line_of_the_error_changes() {
@@ -267,6 +328,27 @@ mod tests {
         assert!(without(&left, name).is_none() && !is_bare(&left));
         assert!(is_bare(&without(&left, ErrorName::parse("EYX").unwrap()).unwrap()));
         assert_eq!(new_name("X.csv"), "X-identified.csv");
+    }
+
+    #[test]
+    fn a_scale_grows_from_its_temperature_without_a_table() {
+        let old = "machine = { name = \"m\", chain = \"w b X Y Z t\" }\n\
+            [axis.X]\ntravel = [\"0 mm\", \"500 mm\"]\n\
+            [scale.X]\nexpansion = \"10 um/(m K)\"\nfixed_point = \"0 mm\"\nsensors = { x = \"0 mm\" }\n\
+            [motion.X]\nEXX = { polynomial = [\"0 um\", \"3 um\"], scale = \"100 mm\", \
+            measured = { temperature = \"28.4 degC\" } }\n";
+        let name = ErrorName::parse("EXX").unwrap(); // why: a name of ISO 230-1
+        let celsius = |text: &str| {
+            let machine = machine_of_text(text, &NoTables).unwrap();
+            machine.heat().scales[0].anchor.table_celsius
+        };
+        let mut file = Lines::of(old);
+        keep_table_temperatures(&mut file, old, &[], &NoTables, "now").unwrap();
+        assert_eq!(file.text(), old, "nothing has changed");
+        put(&mut file, name, &Entry::Nothing("unseen".into()), "now");
+        assert_eq!(celsius(&file.text()), 20.0, "assumed");
+        keep_table_temperatures(&mut file, old, &[], &NoTables, "now").unwrap();
+        assert_eq!([celsius(old), celsius(&file.text())], [28.4; 2]);
     }
 
     #[test]

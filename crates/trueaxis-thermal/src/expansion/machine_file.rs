@@ -11,9 +11,9 @@ use trueaxis_machine::axis::{Axis, AxisKind, Command, Travel, iso_841_direction}
 use trueaxis_machine::describe::axis_index;
 use trueaxis_machine::describe::lines::Lines;
 use trueaxis_machine::describe::replacement::{
-    Entry, NewTables, machine_of_text, plain, put, quoted, take_out_of_table,
+    Entry, NewTables, machine_of_text, measured_text, plain, put, quoted, take_out_of_table,
 };
-use trueaxis_machine::errors::{Component, ErrorKind, ErrorName};
+use trueaxis_machine::errors::{Component, ErrorKind, ErrorName, Measurement};
 use trueaxis_machine::file::Tables;
 use trueaxis_machine::heat::Conditions;
 use trueaxis_machine::models::{Model, Shape};
@@ -70,7 +70,8 @@ pub fn scale_files(
     if let Some(outside) = outside.filter(|_| file.key(&header, "outside").is_none()) {
         let _ = write!(entry, ", outside = {outside}");
     }
-    let _ = write!(entry, ", measured = {} }}", measured(data, table));
+    let measured = measured_text(&measured(data, table));
+    entry += &measured.map_or(" }".to_owned(), |text| format!(", measured = {text} }}"));
     put(&mut file, name, &Entry::Value(entry), &origin);
     put_scale(&mut file, &machine, index, (data, found, table), &origin);
 
@@ -130,13 +131,13 @@ fn origin(data: &Runs) -> String {
     )
 }
 
-fn measured(data: &Runs, table: &GeometricTable) -> String {
-    let mut parts = vec![format!("temperature = \"{} degC\"", plain(table.reference_celsius))];
-    let texts = [("instrument", &data.laser.instrument), ("date", &data.scale.date)];
-    for (key, text) in texts {
-        parts.extend(text.as_ref().map(|text| format!("{key} = {}", quoted(text))));
+fn measured(data: &Runs, table: &GeometricTable) -> Measurement {
+    Measurement {
+        instrument: data.laser.instrument.clone(),
+        date: data.scale.date.clone(),
+        // As `table_temperature` of the scale: two that differ in the last digit would be refused.
+        temperature_celsius: plain(table.reference_celsius).parse().ok(),
     }
-    format!("{{ {} }}", parts.join(", "))
 }
 
 /// The table in the sign of the machine file: the error of the *body*, not of the command.

@@ -9,6 +9,8 @@ use super::iso230_2::{Approached, Position, Positioning};
 use std::fmt::Write as _;
 use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::axis::{Axis, AxisKind, iso_841_direction};
+use trueaxis_machine::describe::replacement::{measured_text, quoted};
+use trueaxis_machine::errors::Measurement;
 
 /// The first line of every table written here; only such a file is overwritten.
 pub const FIRST_LINE: &str = "# written by trueaxis evaluate --write-back";
@@ -27,20 +29,14 @@ pub struct WriteBack {
 impl WriteBack {
     /// The section of the machine file that reads the table.
     pub fn section(&self, axis: &Axis, file: &str, conditions: &Conditions) -> String {
-        let quoted = |text: &str| format!("{text:?}");
-        let mut measured = Vec::new();
-        if let Some(instrument) = &conditions.instrument_name {
-            measured.push(format!("instrument = {}", quoted(instrument)));
-        }
-        if let Some(date) = &conditions.date {
-            measured.push(format!("date = {}", quoted(date)));
-        }
-        if let Some(t) = conditions.temperature_c {
-            measured.push(format!("temperature = {}", quoted(&format!("{} degC", t.value))));
-        }
+        let measured = Measurement {
+            instrument: conditions.instrument_name.clone(),
+            date: conditions.date.clone(),
+            temperature_celsius: conditions.temperature_c.map(|t| t.value),
+        };
         let mut section = format!("[motion.{}]\ntable = {}\n", axis.name, quoted(file));
-        if !measured.is_empty() {
-            section += &format!("measured = {{ {} }}\n", measured.join(", "));
+        if let Some(text) = measured_text(&measured) {
+            section += &format!("measured = {text}\n");
         }
         section
     }

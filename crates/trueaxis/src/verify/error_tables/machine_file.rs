@@ -13,9 +13,9 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::chain::Link;
 use trueaxis_machine::describe::lines::{Lines, header};
 use trueaxis_machine::describe::replacement::{
-    Entry, NewTables, machine_of_text, plain, put, quoted, take_out_of_table,
+    Entry, NewTables, machine_of_text, measured_text, plain, put, take_out_of_table,
 };
-use trueaxis_machine::errors::{Component, ErrorIndex, ErrorName, ErrorValues};
+use trueaxis_machine::errors::{Component, ErrorIndex, ErrorName, ErrorValues, Measurement};
 use trueaxis_machine::file::Tables;
 use trueaxis_machine::models::Shape;
 use trueaxis_machine::twist::Reference;
@@ -103,15 +103,12 @@ fn one_line(text: &str) -> String {
 }
 
 fn measured(table: &ErrorTable) -> String {
-    let mut parts = Vec::new();
-    for (key, text) in [("instrument", &table.instrument), ("date", &table.date)] {
-        parts.extend(text.as_ref().map(|text| format!("{key} = {}", quoted(text))));
-    }
-    parts.extend(table.celsius.map(|c| format!("temperature = \"{} degC\"", plain(c))));
-    match parts.is_empty() {
-        true => String::new(),
-        false => format!(", measured = {{ {} }}", parts.join(", ")),
-    }
+    let measured = Measurement {
+        instrument: table.instrument.clone(),
+        date: table.date.clone(),
+        temperature_celsius: table.celsius,
+    };
+    measured_text(&measured).map_or_else(String::new, |text| format!(", measured = {text}"))
 }
 
 fn csv_text(study: &TableStudy, table: &ErrorTable) -> String {
