@@ -27,9 +27,8 @@ fn tables(
         files.insert(PathBuf::from(format!("{name}.csv")), sheet);
     }
     let files = disk().with_texts(files);
-    let (study, problems) = parse_tables(&files, Path::new("study.toml"), &study);
-    let study = study.unwrap_or_else(|| panic!("{:?}", problems.sorted()));
-    let mut problems = Diagnostics::new();
+    let (study, mut problems) = parse_tables(&files, Path::new("study.toml"), &study);
+    let study = study.unwrap_or_else(|| panic!("{problems:?}"));
     let found = error_tables(&study, &mut problems);
     (found, problems)
 }
@@ -84,4 +83,34 @@ fn an_arm_of_an_unknown_angle_is_named_with_its_length() {
     assert!(["300 mm away", "EAX is not known", "0.30 µm"].iter().all(|w| found[0].contains(*w)));
     assert!(warned("[motion.X]\nEAX = \"0 urad\"\n", "0 0 -300 mm").is_empty());
     assert!(warned("", "0 0 0 mm").is_empty());
+}
+
+/// A table without a temperature would hold at that of the table which it replaces; this is said, once for the scale, and
+/// not for errors that no scale makes.
+#[test]
+fn a_scale_without_a_temperature_is_named() {
+    let machine = |celsius: f64| {
+        format!(
+            "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n[scale.X]\nexpansion = \"10 um/(m K)\"\n\
+             fixed_point = \"0 mm\"\nsensors = {{ x = \"0 mm\" }}\n\
+             [motion.X]\nmeasured = {{ temperature = \"{celsius} degC\" }}\n\
+             EXX = {{ polynomial = [\"0 um\", \"9 um\"], scale = \"100 mm\" }}\n"
+        )
+    };
+    let rows = || (0..5).map(|i| [100.0 * f64::from(i), f64::from(i)]).collect::<Vec<_>>();
+    for celsius in [20.0, 28.4] {
+        for (keys, due, is_said) in
+            [("", celsius, true), ("temperature = \"22 degC\"\n", 22.0, false)]
+        {
+            let readings = [("EXX", rows(), keys), ("EYX", rows(), "")];
+            let (found, problems) = tables(&machine(celsius), "target_mm", &readings);
+            let of = |name: &str| found.iter().find(|t| t.name.to_string() == name);
+            assert_eq!(of("EXX").and_then(|t| t.celsius), Some(due));
+            assert_eq!(of("EYX").and_then(|t| t.celsius), None);
+            let said = problems.iter().filter(|d| d.code == "no-temperature");
+            let said: Vec<&str> = said.map(|d| d.message.as_str()).collect();
+            assert_eq!(said.len(), usize::from(is_said), "{said:?}");
+            assert!(said.iter().all(|m| m.contains("EXX") && m.contains(&celsius.to_string())));
+        }
+    }
 }

@@ -125,7 +125,9 @@ impl Beside<'_> {
             let message = "no machine has this temperature".to_owned();
             s.error("impossible-temperature", message, "°C = (°F − 32)/1.8");
         }
-        idle_keys(s, role(&self.machine.axes()[axis], name.component));
+        let role = role(&self.machine.axes()[axis], name.component);
+        let celsius = celsius.or_else(|| self.assumed_celsius(s, name, (axis, role)));
+        idle_keys(s, role);
         let mut problems = Diagnostics::new();
         // Reports of others say where the axis was, which is positioning.
         let form = Import::of(Path::new(&file));
@@ -155,6 +157,25 @@ impl Beside<'_> {
             centred: centred?,
         };
         self.check(s, &readings).then_some(readings)
+    }
+
+    /// The temperature of readings that state none: that at which the error table of the machine file holds. A warning
+    /// says so, as the new readings may be of a warmer day. Only errors along a scale follow its temperature.
+    fn assumed_celsius(
+        &self,
+        s: &Section<'_>,
+        name: ErrorName,
+        (axis, role): (usize, Role),
+    ) -> Option<f64> {
+        let scale = self.machine.heat().scales.iter().find(|scale| scale.axis == axis);
+        let scale = scale.filter(|_| role == Role::Positioning)?;
+        let celsius = scale.anchor.table_celsius;
+        let message = format!(
+            "{name}: the temperature of the scale is not stated; {celsius} °C is assumed, that of the table in the machine file"
+        );
+        let hint = "temperature = \"21.5 degC\" of the scale during the readings";
+        s.warn("no-temperature", message, hint);
+        Some(celsius)
     }
 
     fn error(
