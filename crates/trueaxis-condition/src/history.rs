@@ -113,6 +113,28 @@ pub struct History {
 /// Limits by the name of a figure, each with its unit.
 pub type Limits = BTreeMap<String, (f64, String)>;
 
+/// Names the figures whose tables hold at several temperatures: the expansion of the scale is part of their change.
+fn check_temperatures(calibrations: &[Calibration], problems: &mut Diagnostics) {
+    let mut by_figure: BTreeMap<&str, Vec<(f64, &str)>> = BTreeMap::new();
+    for calibration in calibrations {
+        for (figure, celsius) in &calibration.tables_celsius {
+            by_figure.entry(figure).or_default().push((*celsius, &calibration.file));
+        }
+    }
+    for (figure, mut tables) in by_figure {
+        tables.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let ends = tables.first().zip(tables.last()).filter(|(cold, warm)| cold.0 < warm.0);
+        let Some(((cold, at_cold), (warm, at_warm))) = ends else { continue };
+        let message = format!(
+            "`{figure}`: the tables hold at several temperatures, {cold} °C in {at_cold} to {warm} °C in {at_warm}, and are compared \
+             as they are"
+        );
+        let hint =
+            "verify --diff OLD NEW refers the older table to the temperature of the newer one";
+        problems.note("two-temperatures", Place::whole(at_warm), message, hint);
+    }
+}
+
 /// The figures of calibrations of one machine over time; `None` with errors in `problems`.
 pub fn history(
     calibrations: &[Calibration],
@@ -129,6 +151,7 @@ pub fn history(
         problems.error("other-machine", Place::whole(&other.file), message, hint);
         return None;
     }
+    check_temperatures(calibrations, problems);
     let mut by_name: BTreeMap<(String, String), Vec<Point>> = BTreeMap::new();
     for calibration in calibrations {
         for (name, unit, point) in &calibration.figures {

@@ -1,8 +1,12 @@
 //! The uncertainty of a trend from the scatter of the points about it.
 
 use trueaxis_condition::date::Date;
-use trueaxis_condition::history::{Calibration, DAYS_PER_YEAR, Limits, Point, Trend, history};
+use trueaxis_condition::history::{
+    Calibration, DAYS_PER_YEAR, Limits, Point, Trend, history, read_machine,
+};
 use trueaxis_input::Diagnostics;
+use trueaxis_machine::Machine;
+use trueaxis_machine::file::NoTables;
 
 /// The trend of three calibrations, 365 days apart, without a stated uncertainty.
 fn trend(values: [f64; 3]) -> Trend {
@@ -16,6 +20,7 @@ fn trend(values: [f64; 3]) -> Trend {
                 file: day.to_owned(),
                 machine: "m".to_owned(),
                 figures: vec![("EC0Y".to_owned(), "urad".to_owned(), point)],
+                tables_celsius: Vec::new(),
             }
         })
         .collect();
@@ -36,4 +41,40 @@ fn law_the_uncertainty_of_a_slope_is_by_hand_and_in_the_unit_of_the_values() {
     let (one, ten) = (trend([1.0, 5.0, 4.0]), trend([10.0, 50.0, 40.0]));
     assert!((ten.per_year - 10.0 * one.per_year).abs() < 1e-12 * ten.per_year);
     assert!((ten.uncertainty.u - 10.0 * one.uncertainty.u).abs() < 1e-12 * ten.uncertainty.u);
+}
+
+/// The range of EXX grows with the temperature of its table: 10 µm/(m K) · 0.5 m · 6.4 K = 32 µm are no wear.
+#[test]
+fn tables_at_several_temperatures_are_named() {
+    let read = |[cold, warm]: [f64; 2], scale: &str| {
+        let calibration = |(year, celsius): (u16, f64)| {
+            let text = format!(
+                "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n{scale}[motion.X]\n\
+                 measured = {{ date = {year}-03-14, temperature = \"{celsius} degC\" }}\n\
+                 EXX = {{ polynomial = [\"0 um\", \"9 um\"], scale = \"100 mm\" }}\n\
+                 EYX = {{ polynomial = [\"0 um\", \"1 um\"], scale = \"100 mm\" }}\n"
+            );
+            let machine = Machine::check("m.toml", &text, &NoTables).0.expect("a machine");
+            let file = format!("{year}.toml");
+            read_machine(&file, &machine, &mut Diagnostics::new()).expect("figures")
+        };
+        let calibrations = [(2024, cold), (2025, warm)].map(calibration);
+        let mut problems = Diagnostics::new();
+        history(&calibrations, &Limits::new(), &mut problems).expect("a history");
+        let named = problems.iter().filter(|d| d.code == "two-temperatures");
+        named.map(|d| d.message.clone()).collect::<Vec<_>>()
+    };
+    let scale = "[scale.X]\nexpansion = \"10 um/(m K)\"\nfixed_point = \"0 mm\"\nsensors = { x = \"0 mm\" }\n";
+    for scale in ["", scale] {
+        assert!(read([22.0, 22.0], scale).is_empty());
+        for celsius in [[22.0, 28.4], [28.4, 22.0]] {
+            let named = read(celsius, scale);
+            assert_eq!(named.len(), 1, "{named:?}");
+            assert!(
+                named[0].contains("EXX")
+                    && named[0].contains("22 °C")
+                    && named[0].contains("28.4 °C")
+            );
+        }
+    }
 }

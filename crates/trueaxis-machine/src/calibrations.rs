@@ -5,15 +5,20 @@
 //! ```
 //!
 //! docs/model.md eq. 161. The two calibrations count as independent: what both have in common (one
-//! instrument, one reference) makes u(Δ) too large, so that a change may be missed, not invented.
+//! instrument, one reference) makes u(Δ) too large, so that a change may be missed, not invented. Tables of one scale that
+//! hold at two temperatures are compared at that of the newer one (eq. 344).
 
+mod temperature;
 mod tip;
 
+pub use temperature::{TwoTemperatures, at_temperatures_of};
 pub use tip::{Share, TipChange};
 
 use crate::Machine;
 use crate::axis::Travel;
+use crate::chain::ChainBody;
 use crate::errors::{Component, ErrorKind, ErrorName, StatedError};
+use crate::heat::ThermalTerm;
 use trueaxis_geometry::statistics::normal_quantile_above;
 
 /// Places along an axis that curves are compared at.
@@ -63,7 +68,7 @@ pub struct ErrorChange {
     pub at: Option<f64>,
     /// The side from which the axis comes there, if the curve knows sides: +1 or −1. Unit: 1.
     pub approach: f64,
-    /// Its value in the old file. Unit: mm or rad.
+    /// Its value in the old file, at the temperature of the new one. Unit: mm or rad.
     pub old: Option<f64>,
     /// Its value in the new file. Unit: mm or rad.
     pub new: Option<f64>,
@@ -96,6 +101,8 @@ pub struct Calibrations {
     pub limit: f64,
     /// What it does to the tool tip.
     pub tip: TipChange,
+    /// Tables that hold at two temperatures.
+    pub temperatures: Vec<TwoTemperatures>,
 }
 
 impl Calibrations {
@@ -128,8 +135,10 @@ impl Calibrations {
 /// # Source
 /// E_n: ISO/IEC 17043:2010, B.3.1.3; for many errors at a time the bound of Bonferroni.
 pub fn calibrations(old: &Machine, new: &Machine) -> Result<Calibrations, String> {
-    let (errors, limit) = error_changes(old, new)?;
-    Ok(Calibrations { errors, limit, tip: tip::tip_change(old, new) })
+    same_machine(old, new)?;
+    let (old, temperatures) = at_temperatures_of(old, new);
+    let (errors, limit) = changes(&old, new);
+    Ok(Calibrations { errors, limit, tip: tip::tip_change(&old, new), temperatures })
 }
 
 /// The errors alone, and the limit of |Δ| / u(Δ).
@@ -138,15 +147,20 @@ pub fn calibrations(old: &Machine, new: &Machine) -> Result<Calibrations, String
 /// As [`calibrations`].
 pub fn error_changes(old: &Machine, new: &Machine) -> Result<(Vec<ErrorChange>, f64), String> {
     same_machine(old, new)?;
+    Ok(changes(&at_temperatures_of(old, new).0, new))
+}
+
+/// The same of machines that hold at one temperature.
+fn changes(old: &Machine, new: &Machine) -> (Vec<ErrorChange>, f64) {
     let mut errors = Vec::new();
     for (body, in_old) in old.bodies().iter().enumerate() {
         let travel = in_old.axis.map(|axis| old.axes()[axis].travel);
         for kind in [ErrorKind::Location, ErrorKind::Motion] {
             for component in Component::ALL {
-                let [a, b] = [old, new].map(|m| m.bodies()[body].stated(kind, component));
+                let [a, b] = [old, new].map(|m| Stated::of(&m.bodies()[body], kind, component));
                 let error = ErrorName { body: in_old.name, kind, component };
                 let travel = travel.filter(|_| kind == ErrorKind::Motion);
-                errors.extend(compared(error, a, b, travel));
+                errors.extend(compared(error, a.as_ref(), b.as_ref(), travel));
             }
         }
     }
@@ -155,7 +169,33 @@ pub fn error_changes(old: &Machine, new: &Machine) -> Result<(Vec<ErrorChange>, 
     for error in &mut errors {
         error.moved = judged(error, limit);
     }
-    Ok((errors, limit))
+    (errors, limit)
+}
+
+/// What a file states of an error, with the growth of its scale to the temperature of the other file.
+struct Stated<'a> {
+    stated: &'a StatedError,
+    growth: Vec<&'a ThermalTerm>,
+}
+
+impl<'a> Stated<'a> {
+    fn of(body: &'a ChainBody, kind: ErrorKind, component: Component) -> Option<Self> {
+        let stated = body.stated(kind, component)?;
+        let growth = body.thermal.iter().filter(|t| (t.kind, t.component) == (kind, component));
+        Some(Self { stated, growth: growth.collect() })
+    }
+
+    /// Its value at a position; none where its table ends. Unit: mm or rad.
+    fn at(&self, q: f64, side: f64) -> Option<f64> {
+        let growth: f64 = self.growth.iter().map(|term| term.at(q)).sum();
+        self.stated.at(q, side).ok().map(|value| value + growth)
+    }
+
+    /// Its standard uncertainty; none if it is not stated. Unit: mm or rad.
+    fn u_at(&self, q: f64) -> Option<f64> {
+        let own = self.stated.u.is_some().then(|| self.stated.u_at(q))?;
+        Some(self.growth.iter().fold(own, |u, term| u.hypot(term.u_at(q))))
+    }
 }
 
 fn same_machine(old: &Machine, new: &Machine) -> Result<(), String> {
@@ -183,12 +223,12 @@ fn judged(error: &ErrorChange, limit: f64) -> Significance {
 /// The change of one error where it is clearest; none if no file states it.
 fn compared(
     error: ErrorName,
-    old: Option<&StatedError>,
-    new: Option<&StatedError>,
+    old: Option<&Stated<'_>>,
+    new: Option<&Stated<'_>>,
     travel: Option<Travel>,
 ) -> Option<ErrorChange> {
-    let stated = old.or(new)?;
-    let sides: &[f64] = match [old, new].iter().flatten().any(|e| e.reversal.is_some()) {
+    let stated = old.or(new)?.stated;
+    let sides: &[f64] = match [old, new].iter().flatten().any(|e| e.stated.reversal.is_some()) {
         true => &[1.0, -1.0],
         false => &[0.0],
     };
@@ -196,10 +236,10 @@ fn compared(
     let (mut sum, mut count) = (0.0, 0_usize);
     for q in places(stated, travel) {
         for side in sides {
-            let value = |e: Option<&StatedError>| e.map(|e| e.at(q, *side)).transpose();
+            let value = |e: Option<&Stated<'_>>| e.map_or(Some(None), |e| e.at(q, *side).map(Some));
             // Where a table of one file ends there is nothing to compare.
-            let (Ok(a), Ok(b)) = (value(old), value(new)) else { continue };
-            let u_of = |e: &StatedError| e.u.is_some().then(|| e.u_at(q));
+            let (Some(a), Some(b)) = (value(old), value(new)) else { continue };
+            let u_of = |e: &Stated<'_>| e.u_at(q);
             let u = old.and_then(u_of).zip(new.and_then(u_of)).map(|(a, b)| a.hypot(b));
             let change = b.unwrap_or(0.0) - a.unwrap_or(0.0);
             sum += change * change;
@@ -254,6 +294,59 @@ mod tests {
         assert_eq!(found.moved().count(), 0);
         assert_eq!((found.tip.largest_mm, found.errors.len()), (0.0, 2));
         assert!(found.errors.iter().all(|e| e.moved == Significance::No));
+    }
+
+    /// One scale, its table written down at two temperatures: nothing has changed, whoever carries the axis and wherever the
+    /// scale is fixed. By hand: 10 µm/(m K) · 0.5 m · 6.4 K = 32 µm, and 1 µm/(m K) of it 3.2 µm.
+    #[test]
+    fn law_a_table_at_another_temperature_is_no_change() {
+        for (chain, sense) in [("w b X Y Z t", 1.0), ("w X' b Y Z t", -1.0)] {
+            for (fixed, celsius) in [(0.0, 28.4), (-200.0, 20.0), (300.0, 35.0)] {
+                let machine = |celsius: f64| {
+                    // EXX = 9 µm per 100 mm at 22 °C.
+                    let grown = sense * 10e-3 * (celsius - 22.0);
+                    let text = format!(
+                        "[machine]\nname = \"m\"\nchain = \"{chain}\"\n[axis.X]\n\
+                         travel = [\"0 mm\", \"500 mm\"]\n[scale.X]\nexpansion = \"10 ± 1 um/(m K)\"\n\
+                         fixed_point = \"{fixed} mm\"\nsensors = {{ x = \"0 mm\" }}\n[motion.X]\n\
+                         EXX = {{ polynomial = [\"{} um\", \"{} um\"], scale = \"100 mm\", u = \"0.1 um\", \
+                         measured = {{ temperature = \"{celsius} degC\" }} }}\n",
+                        -grown * fixed,
+                        9.0 + 100.0 * grown
+                    );
+                    Machine::check("m.toml", &text, &NoTables).0.expect("a machine")
+                };
+                let found = calibrations(&machine(celsius), &machine(22.0)).expect("one machine");
+                let change = found.errors.first().expect("EXX");
+                assert!(
+                    change.rms < 1e-9 && found.tip.largest_mm < 1e-9,
+                    "{chain} {fixed} {change:?}"
+                );
+                assert_eq!(found.moved().count(), 0);
+                let [two] = &found.temperatures[..] else { panic!("{:?}", found.temperatures) };
+                assert_eq!((two.old_celsius, two.new_celsius), (celsius, 22.0));
+                let again = calibrations(&machine(celsius), &machine(celsius));
+                assert!(again.expect("one machine").temperatures.is_empty());
+            }
+        }
+        let of = |rest: &str, celsius: f64| {
+            mill(&format!(
+                "{rest}[motion.X]\nEXX = {{ constant = \"0 um\", u = \"0.1 um\", \
+                 measured = {{ temperature = \"{celsius} degC\" }} }}\n"
+            ))
+        };
+        let scale = "[scale.X]\nexpansion = \"10 ± 1 um/(m K)\"\nfixed_point = \"0 mm\"\nsensors = { x = \"0 mm\" }\n";
+        let found = calibrations(&of(scale, 28.4), &of(scale, 22.0)).expect("one machine");
+        let (old, u) = (found.errors[0].old.expect("stated"), found.errors[0].u.expect("stated"));
+        let at = found.errors[0].at.expect("on the travel");
+        assert!((old + 10e-6 * at * 6.4).abs() < 1e-12, "{old} at {at}");
+        let due = (2.0 * 1e-4_f64.powi(2) + (1e-6 * at * 6.4).powi(2)).sqrt();
+        assert!((u - due).abs() < 1e-12, "{u} {due}");
+        assert!((found.tip.largest_mm - 32e-3).abs() < 1e-4, "{}", found.tip.largest_mm);
+        // Without a coefficient they are compared as they are.
+        let found = calibrations(&of("", 28.4), &of("", 22.0)).expect("one machine");
+        assert_eq!(found.errors[0].change(), Some(0.0));
+        assert!(found.temperatures[0].expansion_per_k.is_none());
     }
 
     #[test]

@@ -294,7 +294,7 @@ impl Machine {
 }
 
 /// The two ends between which a curve of an axis must be good, mm.
-fn reach_of(travel: Travel) -> (f64, f64) {
+pub(crate) fn reach_of(travel: Travel) -> (f64, f64) {
     match travel {
         Travel::Between(from, to) => (from, to),
         Travel::Unlimited | Travel::Unknown => (-1e3, 1e3),

@@ -24,6 +24,8 @@ pub struct Calibration {
     pub machine: String,
     /// Name, unit and value of every figure.
     pub figures: Vec<(String, String, Point)>,
+    /// At which temperature the table of a figure holds, °C.
+    pub tables_celsius: Vec<(String, f64)>,
 }
 
 impl Calibration {
@@ -70,7 +72,7 @@ pub fn read_machine(
     machine: &Machine,
     problems: &mut Diagnostics,
 ) -> Option<Calibration> {
-    let (mut figures, mut undated) = (Vec::new(), Vec::new());
+    let (mut figures, mut undated, mut tables_celsius) = (Vec::new(), Vec::new(), Vec::new());
     for (index, name) in machine.stated_errors() {
         let Some(stated) = machine.bodies()[index.body].stated(index.kind, index.component) else {
             continue;
@@ -83,7 +85,10 @@ pub fn read_machine(
         let (scale, unit) = if name.component.is_rotation() { (1e6, "urad") } else { (1e3, "um") };
         let u = stated.u.is_some().then_some(u * scale);
         let point = Point { date, value: value * scale, u, file: file.to_owned() };
-        figures.push((format!("{name}{what}"), unit.to_owned(), point));
+        let figure = format!("{name}{what}");
+        let celsius = table_celsius(machine, name, stated);
+        tables_celsius.extend(celsius.map(|celsius| (figure.clone(), celsius)));
+        figures.push((figure, unit.to_owned(), point));
     }
     if figures.is_empty() {
         let message = "no error of this machine file has a date".to_owned();
@@ -96,7 +101,20 @@ pub fn read_machine(
         let hint = "measured = { date = 2026-03-14 } in [location] and [motion.X], or of an error";
         problems.warn("no-date", Place::whole(file), message, hint);
     }
-    Some(Calibration { file: file.to_owned(), machine: machine.name().to_owned(), figures })
+    let (file, machine) = (file.to_owned(), machine.name().to_owned());
+    Some(Calibration { file, machine, figures, tables_celsius })
+}
+
+/// At which temperature the table of a positioning error holds: that from which its scale grows, else the one that is stated.
+fn table_celsius(machine: &Machine, name: ErrorName, stated: &StatedError) -> Option<f64> {
+    let axis = machine.axis_index(name.body).filter(|_| name.kind == ErrorKind::Motion)?;
+    let of = &machine.axes()[axis];
+    let is_along = !name.component.is_rotation() && of.direction[name.component as usize] != 0.0;
+    if of.kind != AxisKind::Linear || !is_along {
+        return None;
+    }
+    let scale = machine.heat().scales.iter().find(|scale| scale.axis == axis);
+    scale.map(|scale| scale.anchor.table_celsius).or(stated.measured.temperature_celsius)
 }
 
 /// Value, standard uncertainty, and what of the error it is. Unit: mm or rad.
@@ -191,5 +209,6 @@ pub fn read_document(file: &str, text: &str, problems: &mut Diagnostics) -> Opti
         let hint = "documents of iso230-2, -4 and -6 have figures with units";
         return refuse("no-figures", "the document has no figures".to_owned(), hint);
     }
-    Some(Calibration { file: file.to_owned(), machine: word("machine").to_owned(), figures })
+    let (file, machine) = (file.to_owned(), word("machine").to_owned());
+    Some(Calibration { file, machine, figures, tables_celsius: Vec::new() })
 }

@@ -2,7 +2,9 @@
 
 use super::{Answer, Question, Tell, with_diagnostics};
 use crate::report::{self, CalibrationsReport};
-use crate::verify::calibrations::{Calibrations, calibrations};
+use crate::verify::calibrations::{
+    Calibrations, TwoTemperatures, at_temperatures_of, calibrations,
+};
 use crate::verify::certificate::{Certificate, PoseFault, Study, certify, read_certificate};
 use crate::verify::compare::{Comparison, ComparisonResult, compare, read_comparison};
 use serde_json::Value;
@@ -113,7 +115,19 @@ impl Question for CompareCalibrations {
     ) -> Option<CalibrationsAnswer> {
         let names = [&self.old, &self.new].map(|path| path.display().to_string());
         match calibrations(&old, &new) {
-            Ok(found) => Some(CalibrationsAnswer { old, new, names, found }),
+            Ok(found) => {
+                for two in found.temperatures.iter().filter(|two| two.expansion_per_k.is_none()) {
+                    let TwoTemperatures { error, old_celsius, new_celsius, .. } = two;
+                    let message = format!(
+                        "the tables of {error} hold at {old_celsius} °C and {new_celsius} °C, and are compared as they are"
+                    );
+                    let hint =
+                        "[scale.X] expansion = \"10.8 um/(m K)\" refers them to one temperature";
+                    problems.note("two-temperatures", whole(&self.new), message, hint);
+                }
+                let old = at_temperatures_of(&old, &new).0;
+                Some(CalibrationsAnswer { old, new, names, found })
+            }
             Err(reason) => {
                 let hint = "name two machine files of one machine, the older first";
                 problems.error("other-machine", whole(&self.new), reason, hint);

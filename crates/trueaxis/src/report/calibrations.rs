@@ -1,11 +1,28 @@
 //! Two calibrations of one machine, as text and page.
 
-use crate::verify::calibrations::{Calibrations, ErrorChange, Significance};
+use crate::verify::calibrations::{Calibrations, ErrorChange, Significance, TwoTemperatures};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Travel;
 use trueaxis_machine::describe::{command_words, shown, unit};
 use trueaxis_machine::errors::{ErrorKind, ErrorName};
 use trueaxis_report::{Band, Picture, Report, Scatter, Section, Standing, Table};
+
+/// At which temperatures two tables hold, and how they are compared.
+fn temperature_words(two: &TwoTemperatures) -> String {
+    let TwoTemperatures { error, old_celsius, new_celsius, expansion_per_k } = two;
+    let from = (old_celsius * 100.0).round() / 100.0;
+    let to = (new_celsius * 100.0).round() / 100.0;
+    match expansion_per_k {
+        Some(expansion) => format!(
+            "the tables of {error} hold at {from} °C and {to} °C: the old one is compared at {to} °C, by {:.2} µm/(m·K)",
+            expansion.value * 1e6
+        ),
+        None => format!(
+            "the tables of {error} hold at {from} °C and {to} °C, and no expansion of the scale is stated: they are \
+             compared as they are"
+        ),
+    }
+}
 
 /// Rows of the table of shares.
 const MOST_SHARES: usize = 12;
@@ -62,6 +79,7 @@ impl CalibrationsReport<'_> {
                 tip.nominal_mm
             ));
         }
+        lines.extend(self.found.temperatures.iter().map(temperature_words));
         lines
     }
 
@@ -126,8 +144,16 @@ impl CalibrationsReport<'_> {
             let stated = machine.bodies()[index.body].stated(index.kind, index.component)?;
             let at = |i: usize| from + (to - from) * i as f64 / (PLACES - 1) as f64;
             let places = (0..PLACES).map(at).filter_map(|q| {
-                let value = stated.at(q, 0.0).ok()?;
-                Some((shown(axis, q), value * scale, 2.0 * stated.u_at(q) * scale))
+                let mut value = stated.at(q, 0.0).ok()?;
+                let mut u = stated.u_at(q);
+                // The old one at the temperature of the new one.
+                let terms = machine.bodies()[index.body].thermal.iter();
+                for term in terms.filter(|t| t.kind == index.kind && t.component == index.component)
+                {
+                    value += term.at(q);
+                    u = u.hypot(term.u_at(q));
+                }
+                Some((shown(axis, q), value * scale, 2.0 * u * scale))
             });
             let (label, points) = (label.to_owned(), Vec::new());
             Some(Band { label, colour, line: places.collect(), points })

@@ -88,7 +88,7 @@ export const codes: Dictionary = {
   "impossible-temperature": "Temperatur nicht möglich",
   "warm-temperature": "Temperatur ungewöhnlich hoch",
   "no-temperature": "Temperatur fehlt oder ohne Wirkung",
-  "two-temperatures": "Widersprüchliche Temperaturen der Fehlertabelle",
+  "two-temperatures": "Fehlertabellen mit zwei Temperaturen",
   "two-scales-in-one": "Widersprüchliche Daten eines Maßstabs",
   "heated-twice": "Erwärmte Stelle doppelt angegeben",
   "unknown-flux": "Wärmestrom nicht bestimmbar",

@@ -88,7 +88,7 @@ export const codes: Dictionary = {
   "impossible-temperature": "温度不可能",
   "warm-temperature": "温度异常偏高",
   "no-temperature": "温度缺失或不起作用",
-  "two-temperatures": "误差表温度前后矛盾",
+  "two-temperatures": "误差表有两个温度",
   "two-scales-in-one": "同一光栅尺的数据矛盾",
   "heated-twice": "光栅尺受热点重复",
   "unknown-flux": "热流无法确定",
