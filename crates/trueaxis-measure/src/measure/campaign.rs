@@ -189,7 +189,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Campaign> {
 }
 
 /// The machine as its readings show it: what its control compensates by active tables is no error of it; a note says which. An
-/// unknown error among them is what is left of it, which no machine file can state together with `active`.
+/// unknown error among them is what remains of it, which no machine file can state together with `active`.
 fn running(root: &Section<'_>, machine: Machine, terms: &[Term]) -> Machine {
     let Some(names) = machine.active_names() else { return machine };
     let place = root.get("machine").map(|i| i.place()).unwrap_or_default();
@@ -204,7 +204,7 @@ fn running(root: &Section<'_>, machine: Machine, terms: &[Term]) -> Machine {
     if !listed.is_empty() {
         let listed = listed.into_iter().collect::<Vec<_>>().join(" ");
         let message = format!(
-            "unknown here is {listed}, whose tables are active in the control: readings show what is left, and a machine file \
+            "unknown here is {listed}, whose tables are active in the control: readings show what remains of it, and a machine file \
              that states this counts it as zero as long as `active` names it"
         );
         let hint = "measure with the tables switched off and take it out of [compensation] active";

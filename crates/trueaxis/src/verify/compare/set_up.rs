@@ -1,7 +1,7 @@
 //! The fitted set-up against what is stated of it.
 //!
 //! ```text
-//!     u²(x̂) = u₀² − C + Σ_e (C JᵀW S_e)²         |x̂| > 3.29 u: contradicted       docs/model.md eq. 344
+//!     u²(x̂) = u₀² − C + Σ_e (C JᵀW S_e)²         |x̂| > 3.29 u: contradicted       docs/model.md eq. 345
 //! ```
 
 use nalgebra::DMatrix;
