@@ -3514,6 +3514,10 @@ export interface Diff {
    */
   tip: TipChangeEntry;
   /**
+   * The tables that hold at two temperatures.
+   */
+  temperatures: TwoTemperaturesEntry[];
+  /**
    * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
@@ -3664,6 +3668,27 @@ export interface TipShareEntry {
    * How far it moves the tip at most, µm.
    */
   largest_um: number;
+}
+/**
+ * A table of the older file, referred to the temperature of that of the newer one.
+ */
+export interface TwoTemperaturesEntry {
+  /**
+   * The error.
+   */
+  error: string;
+  /**
+   * The temperature of the older table.
+   */
+  old_degC: number;
+  /**
+   * That of the newer one.
+   */
+  new_degC: number;
+  /**
+   * The expansion by which the older one is referred; null where no file states one: both are compared as they are.
+   */
+  expansion_um_per_m_k: number | null;
 }
 /**
  * The form of points: `trueaxis/evaluate-form/1`.
@@ -15220,6 +15245,10 @@ export interface DiffDocument {
    * What the changes do to the tip.
    */
   tip: TipChangeEntry;
+  /**
+   * The tables that hold at two temperatures.
+   */
+  temperatures: TwoTemperaturesEntry[];
 }
 /**
  * Figures of one machine over its calibrations: `trueaxis/history/1`.

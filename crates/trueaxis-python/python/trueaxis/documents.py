@@ -929,6 +929,8 @@ class DiffDocument(Record):
     errors: List[DiffDocument.ErrorChangeEntry]
     #: What the changes do to the tip.
     tip: DiffDocument.TipChangeEntry
+    #: The tables that hold at two temperatures.
+    temperatures: List[DiffDocument.TwoTemperaturesEntry]
     #: The problems found in the input; the command line prints them on standard error, too. May be absent.
     diagnostics: List[Mapping[str, Any]]
 
@@ -991,6 +993,17 @@ class DiffDocument(Record):
         error: str
         #: How far it moves the tip at most, µm.
         largest_um: float
+
+    class TwoTemperaturesEntry(Record):
+        """A table of the older file, referred to the temperature of that of the newer one."""
+        #: The error.
+        error: str
+        #: The temperature of the older table.
+        old_degC: float
+        #: That of the newer one.
+        new_degC: float
+        #: The expansion by which the older one is referred; null where no file states one: both are compared as they are.
+        expansion_um_per_m_k: Optional[float]
 
 
 class EvaluateDocument(Record):

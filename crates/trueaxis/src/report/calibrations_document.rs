@@ -1,7 +1,7 @@
 //! The document `trueaxis/diff/1`.
 
 use super::calibrations::CalibrationsReport;
-use crate::verify::calibrations::ErrorChange;
+use crate::verify::calibrations::{ErrorChange, TwoTemperatures};
 use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_machine::Machine;
@@ -33,6 +33,23 @@ pub struct DiffDocument<'a> {
     pub errors: Vec<ErrorChangeEntry>,
     /// What the changes do to the tip.
     pub tip: TipChangeEntry,
+    /// The tables that hold at two temperatures.
+    pub temperatures: Vec<TwoTemperaturesEntry>,
+}
+
+/// A table of the older file, referred to the temperature of that of the newer one.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct TwoTemperaturesEntry {
+    /// The error.
+    pub error: String,
+    /// The temperature of the older table.
+    #[serde(rename = "old_degC")]
+    pub old_celsius: f64,
+    /// That of the newer one.
+    #[serde(rename = "new_degC")]
+    pub new_celsius: f64,
+    /// The expansion by which the older one is referred; null where no file states one: both are compared as they are.
+    pub expansion_um_per_m_k: Option<f64>,
 }
 
 /// How one error has changed, where the change is clearest.
@@ -133,6 +150,18 @@ impl<'a> From<&CalibrationsReport<'a>> for DiffDocument<'a> {
                 nominal_difference_mm: tip.nominal_mm,
                 shares: shares.collect(),
             },
+            temperatures: found.temperatures.iter().map(TwoTemperaturesEntry::of).collect(),
+        }
+    }
+}
+
+impl TwoTemperaturesEntry {
+    fn of(of: &TwoTemperatures) -> Self {
+        Self {
+            error: of.error.to_string(),
+            old_celsius: of.old_celsius,
+            new_celsius: of.new_celsius,
+            expansion_um_per_m_k: of.expansion_per_k.map(|expansion| expansion.value * 1e6),
         }
     }
 }

@@ -66,7 +66,7 @@ fn error_table(scale: &ScaleFound) -> Table {
     let rows = rows
         .map(|((p, e), u)| [format!("{p}"), format!("{:.2}", e * 1e3), format!("{:.2}", 2e3 * u)]);
     Table::new(["position, mm", "error, µm", "U (k = 2), µm"]).rows(rows).note(format!(
-        "actual − nominal at {:.2} °C, 0 at the first position of the runs; all runs, each brought to this \
+        "actual − nominal at {:.2} °C, 0 at the end where the laser was zeroed; all runs, each brought to this \
          temperature",
         table.reference_celsius
     ))
