@@ -2,7 +2,7 @@
 
 use crate::Machine;
 use crate::errors::{Curve, ErrorName, StatedError};
-use trueaxis_input::Section;
+use trueaxis_input::{Diagnostics, Place, Section};
 
 /// `[compensation] active = ["EXX", "EYY"]`: tables that are switched on in the control.
 pub(crate) fn read_active(section: &Section<'_>) -> Vec<ErrorName> {
@@ -55,6 +55,16 @@ impl Machine {
         let stated = self.stated_errors();
         let compensated = stated.into_iter().filter(|(_, name)| active(name));
         compensated.fold(self.clone(), |machine, (index, _)| machine.with_error(index, None))
+    }
+
+    /// [`Self::as_running`] with a note that names the errors: `done` (such as "simulated") without them.
+    #[must_use]
+    pub fn running(self, done: &str, place: Place, problems: &mut Diagnostics) -> Self {
+        let Some(names) = self.active_names() else { return self };
+        let message = format!("{done} without {names}: the control compensates them");
+        let hint = "the machine file says under [compensation] that their tables are active; take out what is not";
+        problems.note("already-active", place, message, hint);
+        self.as_running()
     }
 
     /// The machine as it runs: the errors that the control compensates are zero, and as uncertain as before.

@@ -11,7 +11,7 @@
 mod temperature;
 mod tip;
 
-pub use temperature::{TwoTemperatures, at_temperatures_of};
+pub use temperature::TwoTemperatures;
 pub use tip::{Share, TipChange};
 
 use crate::Machine;
@@ -19,6 +19,7 @@ use crate::axis::Travel;
 use crate::chain::ChainBody;
 use crate::errors::{Component, ErrorKind, ErrorName, StatedError};
 use crate::heat::ThermalTerm;
+use temperature::at_temperatures_of;
 use trueaxis_geometry::statistics::normal_quantile_above;
 
 /// Places along an axis that curves are compared at.
@@ -95,6 +96,8 @@ impl ErrorChange {
 /// What is different between two calibrations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Calibrations {
+    /// The older machine, its tables at the temperatures of the newer one.
+    pub older: Machine,
     /// Every error that a file states, in the order of the chain.
     pub errors: Vec<ErrorChange>,
     /// |Δ| / u(Δ) above which a change is significant: 5 % of false alarms for all errors together. Unit: 1.
@@ -136,9 +139,10 @@ impl Calibrations {
 /// E_n: ISO/IEC 17043:2010, B.3.1.3; for many errors at a time the bound of Bonferroni.
 pub fn calibrations(old: &Machine, new: &Machine) -> Result<Calibrations, String> {
     same_machine(old, new)?;
-    let (old, temperatures) = at_temperatures_of(old, new);
-    let (errors, limit) = changes(&old, new);
-    Ok(Calibrations { errors, limit, tip: tip::tip_change(&old, new), temperatures })
+    let (older, temperatures) = at_temperatures_of(old, new);
+    let (errors, limit) = changes(&older, new);
+    let tip = tip::tip_change(&older, new);
+    Ok(Calibrations { older, errors, limit, tip, temperatures })
 }
 
 /// The errors alone, and the limit of |Δ| / u(Δ).
@@ -173,26 +177,27 @@ fn changes(old: &Machine, new: &Machine) -> (Vec<ErrorChange>, f64) {
 }
 
 /// What a file states of an error, with the growth of its scale to the temperature of the other file.
-struct Stated<'a> {
+pub struct Stated<'a> {
     stated: &'a StatedError,
     growth: Vec<&'a ThermalTerm>,
 }
 
 impl<'a> Stated<'a> {
-    fn of(body: &'a ChainBody, kind: ErrorKind, component: Component) -> Option<Self> {
+    /// Of one error of a body; none if it is not stated.
+    pub fn of(body: &'a ChainBody, kind: ErrorKind, component: Component) -> Option<Self> {
         let stated = body.stated(kind, component)?;
         let growth = body.thermal.iter().filter(|t| (t.kind, t.component) == (kind, component));
         Some(Self { stated, growth: growth.collect() })
     }
 
     /// Its value at a position; none where its table ends. Unit: mm or rad.
-    fn at(&self, q: f64, side: f64) -> Option<f64> {
+    pub fn at(&self, q: f64, side: f64) -> Option<f64> {
         let growth: f64 = self.growth.iter().map(|term| term.at(q)).sum();
         self.stated.at(q, side).ok().map(|value| value + growth)
     }
 
     /// Its standard uncertainty; none if it is not stated. Unit: mm or rad.
-    fn u_at(&self, q: f64) -> Option<f64> {
+    pub fn u_at(&self, q: f64) -> Option<f64> {
         let own = self.stated.u.is_some().then(|| self.stated.u_at(q))?;
         Some(self.growth.iter().fold(own, |u, term| u.hypot(term.u_at(q))))
     }

@@ -181,7 +181,7 @@ fn waits(control: Control, text: &str) -> Result<Vec<f64>, &'static str> {
 /// P of FANUC counts milliseconds and takes no fraction; of Haas P10. is 10 s and P10 is 10 ms; of LinuxCNC it counts
 /// seconds. In a drilling cycle as in G4, whatever variable or sign is written.
 #[test]
-fn a_dwell_by_each_control() {
+fn law_a_dwell_lasts_as_its_control_counts() {
     let hole = |p: &str| format!("G0 Z5\nG82 Z-5 R1 {p} F100\nG80\n");
     for (p, fanuc, haas, linuxcnc) in [
         ("P500", Ok(0.5), 0.5, 500.0),

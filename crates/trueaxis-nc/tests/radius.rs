@@ -357,7 +357,7 @@ fn approach_and_departure_of_heidenhain() {
 
 /// M126 is for the rotary axes: contours, their approaches and corners are those of M127.
 #[test]
-fn the_way_of_rotary_axes_is_no_matter_of_a_contour() {
+fn law_the_way_of_rotary_axes_is_no_matter_of_a_contour() {
     for (approach, corner, depart) in [
         ("APPR CT X+0 Y+0 CCA90 R+3 RL F500", "RND R4", "DEP LCT X+50 Y+30 R3"),
         ("APPR LN X+0 Y+0 LEN5 RR F500", "CHF 2", "DEP LT LEN5"),

@@ -57,34 +57,29 @@ pub(crate) fn feed_of(
         _ if minutes == wanted && (options.tip_words.is_some() || rotary == 0.0) => file,
         // The same place again, with axis positions that differ by their rounding.
         _ if rotary == 0.0 && linear <= NO_LENGTH_MM => file,
-        _ => {
+        _ if moves_mm(machine, options, [from, to]) => {
             let length = if options.tip_words.is_some() { tip } else { linear };
-            (
-                FeedMode::PerMinute,
-                counted(machine, options, [from, to], length, turned_deg) / minutes,
-            )
+            // Numbers that differ do so by an increment.
+            (FeedMode::PerMinute, length.max(1.0 / increments_per_mm(options)) / minutes)
         }
+        _ => (FeedMode::PerMinute, turned_deg / minutes),
     };
     Feed { mode, value: value.min(GREATEST) }
 }
 
-/// What the control counts the feed along: millimetres of the tip or of the linear axes, as they are given, or degrees
-/// where these numbers are the same as before.
-fn counted(
-    machine: &Machine,
-    options: &PostOptions,
-    [from, to]: [&Node; 2],
-    length_mm: f64,
-    turned_deg: f64,
-) -> f64 {
-    let per_mm = 10_f64.powi(i32::from(options.decimals.linear));
+/// Whether the written places differ, of the tip or of the linear axes, as they are given: where they do not the control counts
+/// degrees.
+fn moves_mm(machine: &Machine, options: &PostOptions, [from, to]: [&Node; 2]) -> bool {
+    let per_mm = increments_per_mm(options);
     let differ = |a: f64, b: f64| (a * per_mm).round_ties_even() != (b * per_mm).round_ties_even();
-    let moves = match options.tip_words {
+    match options.tip_words {
         Some(_) => (0..3).any(|i| differ(from.stand.tip[i], to.stand.tip[i])),
         None => machine.axes().iter().enumerate().any(|(i, axis)| {
             axis.kind == AxisKind::Linear && differ(from.command[i], to.command[i])
         }),
-    };
-    // Numbers that differ do so by an increment.
-    if moves { length_mm.max(per_mm.recip()) } else { turned_deg }
+    }
+}
+
+fn increments_per_mm(options: &PostOptions) -> f64 {
+    10_f64.powi(i32::from(options.decimals.linear))
 }

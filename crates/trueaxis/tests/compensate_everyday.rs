@@ -32,8 +32,9 @@ fn proved(name: &str, control: Control, text: &str) {
     assert!(after.tip.value < 1e-9 && after.tip_end.value < 1e-9, "{after:?}");
 }
 
+/// Whatever the height from which it is called and the feed that is modal, a cycle is written move by move, and proved.
 #[test]
-fn cycles_begin_from_any_height_under_any_feed() {
+fn law_cycles_begin_from_any_height_under_any_feed() {
     for feed in ["", " F200", " F777"] {
         for cycle in [
             "CYCL DEF 200 DRILLING Q200=2 Q201=-10 Q206=200 Q202=10 Q210=0 Q203=-200 Q204=50 Q211=0",
@@ -51,8 +52,9 @@ fn cycles_begin_from_any_height_under_any_feed() {
     }
 }
 
+/// The positions of MCALL under G0 and under G1.
 #[test]
-fn positions_of_a_modal_cycle_go_by_any_motion_code() {
+fn law_positions_of_a_modal_cycle_have_any_motion_code() {
     for code in ["G0", "G1"] {
         let text = format!(
             "G40 G17 G710 G94 G90\nT1 M6\nD1 S1000 M3\nG0 X0 Y0 Z-60\nG1 Z-80 F200\n{code} X1\n\
@@ -62,8 +64,9 @@ fn positions_of_a_modal_cycle_go_by_any_motion_code() {
     }
 }
 
+/// PLANE with and without MB, by TURN and MOVE, and M140 before a cut.
 #[test]
-fn a_retraction_of_a_swivel_stays() {
+fn law_a_retraction_of_a_swivel_stays() {
     for turn in ["TURN MB50", "TURN", "MOVE DIST20", "TURN MB 5"] {
         let text = format!(
             "BEGIN PGM P MM\nTOOL CALL 1 Z S1000 F1000\nL Z-20 R0 FMAX M3\nPLANE SPATIAL SPA+0 SPB+20 SPC+45 {turn} F2000 \
@@ -74,8 +77,9 @@ fn a_retraction_of_a_swivel_stays() {
     }
 }
 
+/// 350° and 10°, 10° and 350°, with angles below 0°.
 #[test]
-fn rotary_axes_pass_zero_by_the_shortest_way() {
+fn law_rotary_axes_pass_zero_by_the_shortest_way() {
     for (from, to) in [("+350", "+10"), ("+10", "+350"), ("-10", "+10"), ("+350", "-350")] {
         let text = format!(
             "BEGIN PGM P MM\nTOOL CALL 1 Z S1000\nL M126\nFUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS\n\

@@ -250,3 +250,33 @@ fn law_readings_are_those_of_the_machine_as_it_runs() {
     let (_, listed) = measured("\"EXX\"", "-20 um", unknown);
     assert_eq!([said(&notes), said(&quiet), said(&listed)], [1, 0, 2]);
 }
+
+/// The machine file that readings are compared with is one as it runs, too, whether the campaign names it or the comparison.
+#[test]
+fn law_readings_are_compared_with_the_machine_as_it_runs() {
+    let folder = Folder::new("compared-running");
+    let errors = "[motion.X]\nEXX = { polynomial = [\"0 um\", \"-200 um\"], scale = \"100 mm\" }\n";
+    let active = format!("{MACHINE}[compensation]\nactive = [\"EXX\"]\n{errors}");
+    folder.put("active.toml", &active);
+    folder.put("off.toml", &format!("{MACHINE}{errors}"));
+    // What the machine without the error reads.
+    let path = folder.put("campaign.toml", &format!("{CAMPAIGN}{PATH}[disturb]\nnoise = 0.0\n"));
+    let (read, problems) =
+        read_campaign(&disk(), &path, |root, campaign| read_virtual(root, campaign, None));
+    let (campaign, real) = read.unwrap_or_else(|| panic!("{problems:?}"));
+    let measured = measure(&campaign, &real).expect("readings").readings;
+    folder.put("r.csv", "X,Y,Z,A,C,x_um,y_um,z_um\n0,0,0,0,0,1,2,3\n");
+    for (machine, agrees) in [("machine.toml", true), ("active.toml", true), ("off.toml", false)] {
+        let comparison = format!(
+            "name = \"v\"\n[compare]\ncampaign = \"campaign.toml\"\nreadings = \"r.csv\"\nmachine = \"{machine}\"\n"
+        );
+        let path = folder.put("verify.toml", &comparison);
+        let (task, problems) = read_comparison(&disk(), &path);
+        let mut task = task.unwrap_or_else(|| panic!("{problems:?}"));
+        task.measured = measured.clone();
+        let found = compare(&task).expect("a fit");
+        let largest = found.deviations.iter().map(|d| d.value.abs()).fold(0.0, f64::max);
+        assert_eq!(largest < 1e-6, agrees, "{machine}: {largest} mm");
+        assert_eq!(codes(&problems).contains(&"already-active"), machine == "active.toml");
+    }
+}

@@ -12,8 +12,8 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, MAX_AXES};
 use trueaxis_machine::describe::lines::Lines;
 use trueaxis_machine::describe::replacement::{
-    Entry, curve_text, keep_table_temperatures, measured_in_place_of, measured_text, plain, put,
-    take_out_of_table,
+    Entry, curve_text, keep_table_temperatures, measured_and_closed, measured_in_place_of, plain,
+    put, take_out_of_table,
 };
 use trueaxis_machine::errors::{ErrorKind, ErrorName, StatedError};
 use trueaxis_machine::file::Tables;
@@ -119,8 +119,7 @@ fn entry(
 
 /// The end of the text of a curve that was found: with which instruments, and at which temperature it holds.
 pub(super) fn measured_of(machine: &Machine, name: ErrorName, origin: &str) -> String {
-    let measured = measured_in_place_of(stated_in(machine, name), origin);
-    measured_text(&measured).map_or(" }".to_owned(), |text| format!(", measured = {text} }}"))
+    measured_and_closed(&measured_in_place_of(stated_in(machine, name), origin))
 }
 
 /// What a machine states of an error.

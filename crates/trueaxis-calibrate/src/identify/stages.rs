@@ -260,20 +260,6 @@ fn tested(before: &Known, own: &Known, threshold: f64) -> Option<Test> {
     Some(Test { chi_square, degrees_of_freedom, p, worst })
 }
 
-/// The factor to what is shown, and its unit.
-pub fn shown_unit(unknown: Option<Unknown<'_>>) -> (f64, &'static str) {
-    match unknown {
-        Some(u) if u.is_time() => (1e3, "ms"),
-        Some(Unknown::Setup(_, s)) if s.error == SetupError::Scale => (1e6, "µm/m"),
-        Some(u) if u.is_rate() => match u.is_angle() {
-            true => (1e6, "µrad/h"),
-            false => (1e3, "µm/h"),
-        },
-        Some(u) if u.is_angle() => (1e6, "µrad"),
-        _ => (1e3, "µm"),
-    }
-}
-
 fn tell_conflicts(
     campaign: &Campaign,
     design: &Design,
@@ -283,7 +269,7 @@ fn tell_conflicts(
     for (stage, result) in campaign.stages.list.iter().zip(&sequence.results) {
         let Some(test) = result.test.as_ref().filter(|t| t.is_conflict()) else { continue };
         let worst = test.worst.map_or(String::new(), |Contrast { unknown: k, before, here }| {
-            let (scale, unit) = shown_unit(design.unknown(k));
+            let (unit, scale) = design.shown_unit(k);
             let [a, b] = [before, here]
                 .map(|(v, u)| format!("{:.2} {unit} (U {:.2} {unit})", v * scale, 2.0 * u * scale));
             format!("; {} is {a} before and {b} by this stage", sequence.names[k])

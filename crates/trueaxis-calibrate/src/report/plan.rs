@@ -6,7 +6,6 @@ use super::stages::planned_section;
 use super::surface::issues;
 use crate::plan::{Chosen, Expected, PlanReport, PlannedPath, tools};
 use trueaxis_geometry::Vec3;
-use trueaxis_measure::unknowns::design::Design;
 use trueaxis_motion::report::clock;
 use trueaxis_report::{Columns, Figure, Report, Section, Table};
 
@@ -14,18 +13,6 @@ use trueaxis_report::{Columns, Figure, Report, Section, Table};
 const VIEW_PX: f64 = 240.0;
 /// How long the tool axis is drawn, mm.
 const STROKE_MM: f64 = 40.0;
-
-/// µm, µrad or 1, with the factor from mm, rad or 1.
-pub(super) fn shown_unit(design: &Design, expected: &Expected) -> (&'static str, f64) {
-    use trueaxis_measure::unknowns::design::Unknown;
-    match design.unknown(expected.unknown) {
-        Some(Unknown::Setup(_, s)) if s.error.is_share() => ("µm/m", 1e6),
-        Some(Unknown::Setup(_, s)) if s.error.is_rate() && !expected.is_angle => ("µm/h", 1e3),
-        Some(Unknown::Setup(_, s)) if s.error.is_rate() => ("µrad/h", 1e6),
-        _ if expected.is_angle => ("µrad", 1e6),
-        _ => ("µm", 1e3),
-    }
-}
 
 /// Three digits that count.
 fn figure(value: f64) -> String {
@@ -115,7 +102,7 @@ fn expected_section<'a>(answer: &'a PlanReport) -> Section<'a> {
     let e = &answer.expectation;
     let figures = ["µm", "µrad", "µm/m"].into_iter().filter_map(|unit| {
         let bar = |e: &'a Expected| {
-            let (its, scale) = shown_unit(&answer.design, e);
+            let (its, scale) = answer.design.shown_unit(e.unknown);
             let value = e.u.filter(|_| its == unit)? * 2.0 * scale;
             let text = format!("{} {unit}", figure(value));
             Some(Bar { name: &e.name, value, half: 0.0, text })
@@ -124,7 +111,7 @@ fn expected_section<'a>(answer: &'a PlanReport) -> Section<'a> {
         (!all.is_empty()).then(|| Figure::new(format!("U (k = 2), {unit}"), move || Ok(bars(&all))))
     });
     let rows = e.unknowns.iter().map(|expected| {
-        let (unit, scale) = shown_unit(&answer.design, expected);
+        let (unit, scale) = answer.design.shown_unit(expected.unknown);
         let [u, expanded, unit] = match expected.u {
             Some(u) => [figure(u * scale), figure(2.0 * u * scale), unit.to_owned()],
             None => ["–", "not observable", ""].map(str::to_owned),
@@ -159,7 +146,7 @@ fn chosen_section<'a>(answer: &PlanReport, chosen: &Chosen) -> Section<'a> {
     }
     let Some((count, grid)) = &chosen.grid else { return section };
     let rows = chosen.expectation.unknowns.iter().zip(&grid.unknowns).map(|(a, b)| {
-        let (unit, scale) = shown_unit(&answer.design, a);
+        let (unit, scale) = answer.design.shown_unit(a.unknown);
         let one =
             |u: Option<f64>| u.map_or("not observable".to_owned(), |u| figure(2.0 * u * scale));
         [a.name.clone(), one(a.u), one(b.u), unit.to_owned()]

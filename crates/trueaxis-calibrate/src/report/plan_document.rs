@@ -1,6 +1,5 @@
 //! A plan for programs: `trueaxis/plan/1`.
 
-use super::plan::shown_unit;
 use super::stages::{PlannedStageEntry, planned_entries};
 use crate::plan::program::ProgramCheck;
 use crate::plan::{Chosen, Expectation, Expected, PlanReport, PlannedPath, Seen, Unobservable};
@@ -157,7 +156,7 @@ impl<'a> PlanDocument<'a> {
 
 fn expected<'a>(design: &Design, expectation: &'a Expectation) -> Vec<ExpectedEntry<'a>> {
     let one = |expected: &'a Expected| {
-        let (unit, scale) = shown_unit(design, expected);
+        let (unit, scale) = design.shown_unit(expected.unknown);
         ExpectedEntry {
             name: &expected.name,
             unit: unit.replace('µ', "u"),

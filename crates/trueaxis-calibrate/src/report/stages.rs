@@ -1,6 +1,6 @@
 //! The stages of a campaign in text and for programs.
 
-use crate::identify::stages::{Sequence, StageResult, Value, probability, shown_unit};
+use crate::identify::stages::{Sequence, StageResult, Value, probability};
 use crate::plan::StageExpectation;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -54,7 +54,7 @@ fn stage_section<'a>(
         )
     }));
     let rows = changed(stage).map(|k| {
-        let (scale, unit) = shown_unit(design.unknown(k));
+        let (unit, scale) = design.shown_unit(k);
         let shown = |value: Value| match value {
             Some((v, u)) => [v * scale, 2.0 * u * scale].map(|n| format!("{n:.3}")),
             None => ["–".to_owned(), String::new()],
@@ -89,7 +89,7 @@ pub(super) fn planned_section<'a>(
     }
     let names = design.names();
     let rows = names.iter().enumerate().map(|(k, name)| {
-        let (scale, unit) = shown_unit(design.unknown(k));
+        let (unit, scale) = design.shown_unit(k);
         let shown = |s: &StageExpectation| {
             s.u[k].map_or("–".to_owned(), |u| format!("{:.3}", 2.0 * u * scale))
         };
@@ -170,7 +170,7 @@ pub(super) fn stage_entries<'a>(design: &Design, sequence: &'a Sequence) -> Vec<
         }),
         known: (0..sequence.names.len())
             .map(|k| {
-                let (scale, unit) = shown_unit(design.unknown(k));
+                let (unit, scale) = design.shown_unit(k);
                 StageValue {
                     name: &sequence.names[k],
                     unit: plain(unit),
@@ -220,7 +220,7 @@ pub(super) fn planned_entries<'a>(
 ) -> Vec<PlannedStageEntry<'a>> {
     let names = design.names();
     let value = |stage: &StageExpectation, k: usize| {
-        let (scale, unit) = shown_unit(design.unknown(k));
+        let (unit, scale) = design.shown_unit(k);
         let expanded_k2 = stage.u[k].map(|u| 2.0 * u * scale);
         PlannedValue { name: names[k].clone(), unit: plain(unit), expanded_k2 }
     };

@@ -7,8 +7,8 @@ use std::fmt::Write as _;
 use trueaxis_machine::Machine;
 use trueaxis_machine::describe::lines::Lines;
 use trueaxis_machine::describe::replacement::{
-    Entry, NewTables, curve_text, machine_of_text, measured_in_place_of, measured_text, plain, put,
-    take_out_of_table,
+    Entry, NewTables, curve_text, machine_of_text, measured_and_closed, measured_in_place_of,
+    plain, put, take_out_of_table,
 };
 use trueaxis_machine::errors::{
     Curve, ErrorIndex, ErrorName, Extrapolation, StatedError, Uncertainty,
@@ -124,8 +124,7 @@ fn motion_text(
     origin: &str,
     tables: &mut Vec<(String, String)>,
 ) -> Result<String, String> {
-    let measured = measured_text(&measured_in_place_of(Some(stated), origin));
-    let measured = measured.map_or(" }".to_owned(), |text| format!(", measured = {text} }}"));
+    let measured = measured_and_closed(&measured_in_place_of(Some(stated), origin));
     let Curve::Table { spline, outside } = &stated.mean else {
         if matches!(stated.mean, Curve::Fourier { .. }) {
             return Err(format!(

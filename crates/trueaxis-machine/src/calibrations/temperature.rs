@@ -24,7 +24,7 @@ pub struct TwoTemperatures {
 }
 
 /// The older machine with the tables of its scales at the temperatures of the newer one, and which they are.
-pub fn at_temperatures_of(old: &Machine, new: &Machine) -> (Machine, Vec<TwoTemperatures>) {
+pub(super) fn at_temperatures_of(old: &Machine, new: &Machine) -> (Machine, Vec<TwoTemperatures>) {
     let (mut cold, mut found) = (old.without_heat(), Vec::new());
     for (axis, of) in old.axes().iter().enumerate() {
         let along = |c: &Component| of.sense * of.direction[*c as usize];

@@ -222,6 +222,11 @@ pub fn measured_text(measured: &Measurement) -> Option<String> {
     (!parts.is_empty()).then(|| format!("{{ {} }}", parts.join(", ")))
 }
 
+/// The same as the last part of an error in braces, which it closes.
+pub fn measured_and_closed(measured: &Measurement) -> String {
+    measured_text(measured).map_or(" }".to_owned(), |text| format!(", measured = {text} }}"))
+}
+
 /// How a curve was measured that was found in addition to what the machine says of heat: by `origin`, and at the temperature
 /// of the table in whose place it stands, as the scale grows from there (docs/model.md eq. 81).
 pub fn measured_in_place_of(before: Option<&StatedError>, origin: &str) -> Measurement {

@@ -191,13 +191,8 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Campaign> {
 /// The machine as its readings show it: what its control compensates by active tables is no error of it; a note says which. An
 /// unknown error among them is what remains of it, which no machine file can state together with `active`.
 fn running(root: &Section<'_>, machine: Machine, terms: &[Term]) -> Machine {
-    let Some(names) = machine.active_names() else { return machine };
     let place = root.get("machine").map(|i| i.place()).unwrap_or_default();
     let mut problems = Diagnostics::new();
-    let message = format!("readings are those without {names}: the control compensates them");
-    let hint =
-        "take out of [compensation] active what was switched off when the readings were taken";
-    problems.note("already-active", place.clone(), message, hint);
     let listed =
         terms.iter().map(|t| t.error).filter(|e| machine.active_compensation().contains(e));
     let listed: BTreeSet<String> = listed.map(|e| e.to_string()).collect();
@@ -208,10 +203,11 @@ fn running(root: &Section<'_>, machine: Machine, terms: &[Term]) -> Machine {
              that states this counts it as zero as long as `active` names it"
         );
         let hint = "measure with the tables switched off and take it out of [compensation] active";
-        problems.warn("already-active", place, message, hint);
+        problems.warn("already-active", place.clone(), message, hint);
     }
+    let machine = machine.running("readings are those", place, &mut problems);
     root.take_over(problems);
-    machine.as_running()
+    machine
 }
 
 /// `[unknown]`: `location = "minimal"`, `"all"` or names; `[unknown.motion] EXC = "fourier 2"`;

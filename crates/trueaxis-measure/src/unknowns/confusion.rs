@@ -80,20 +80,10 @@ const NOT_MOVED: &str = "no pose moves what it acts on";
 
 /// `10 µm of EX0C and −10 µm of probe.ball_x`: the greatest is 10.
 fn amounts(unknowns: &[(Unknown<'_>, f64)]) -> String {
-    // In µm and µrad; what has no unit is shown as µm/m.
-    let micro = |unknown: &Unknown<'_>, share: f64| {
-        let plain = matches!(
-            unknown,
-            Unknown::Setup(_, s) if s.error.is_share()
-        );
-        match (plain, unknown.is_angle()) {
-            _ if unknown.is_time() => (share * 1e6, "µs"),
-            (true, _) => (share * 1e6, "µm/m"),
-            (_, true) if unknown.is_rate() => (share * 1e6, "µrad/h"),
-            _ if unknown.is_rate() => (share * 1e3, "µm/h"),
-            (_, true) => (share * 1e6, "µrad"),
-            _ => (share * 1e3, "µm"),
-        }
+    let micro = |unknown: &Unknown<'_>, share: f64| match unknown.shown_unit() {
+        // Combinations of millionths.
+        _ if unknown.is_time() => (share * 1e6, "µs"),
+        (unit, scale) => (share * scale, unit),
     };
     let greatest = unknowns.iter().map(|(u, s)| micro(u, *s).0.abs()).fold(0.0, f64::max);
     let one = |(unknown, share): &(Unknown<'_>, f64)| {

@@ -91,6 +91,18 @@ impl Unknown<'_> {
             },
         }
     }
+
+    /// The unit in which it is shown, and the factor to it from mm, rad, s or 1, rates by the hour.
+    pub fn shown_unit(&self) -> (&'static str, f64) {
+        match (self.is_rate(), self.is_angle()) {
+            _ if self.is_time() => ("ms", 1e3),
+            _ if self.is_share() => ("µm/m", 1e6),
+            (true, true) => ("µrad/h", 1e6),
+            (true, false) => ("µm/h", 1e3),
+            (false, true) => ("µrad", 1e6),
+            (false, false) => ("µm", 1e3),
+        }
+    }
 }
 
 impl Design {
@@ -174,6 +186,11 @@ impl Design {
     /// How many unknowns.
     pub fn unknowns(&self) -> usize {
         self.offsets.last().copied().unwrap_or(0)
+    }
+
+    /// The unit in which an unknown is shown, and the factor to it.
+    pub fn shown_unit(&self, k: usize) -> (&'static str, f64) {
+        self.unknown(k).map_or(("µm", 1e3), |unknown| unknown.shown_unit())
     }
 
     /// One unknown.

@@ -11,7 +11,7 @@ use trueaxis_machine::axis::{Axis, AxisKind, Command, Travel, iso_841_direction}
 use trueaxis_machine::describe::axis_index;
 use trueaxis_machine::describe::lines::Lines;
 use trueaxis_machine::describe::replacement::{
-    Entry, NewTables, machine_of_text, measured_text, plain, put, quoted, take_out_of_table,
+    Entry, NewTables, machine_of_text, measured_and_closed, plain, put, quoted, take_out_of_table,
 };
 use trueaxis_machine::errors::{Component, ErrorKind, ErrorName, Measurement};
 use trueaxis_machine::file::Tables;
@@ -70,8 +70,7 @@ pub fn scale_files(
     if let Some(outside) = outside.filter(|_| file.key(&header, "outside").is_none()) {
         let _ = write!(entry, ", outside = {outside}");
     }
-    let measured = measured_text(&measured(data, table));
-    entry += &measured.map_or(" }".to_owned(), |text| format!(", measured = {text} }}"));
+    entry += &measured_and_closed(&measured(data, table));
     put(&mut file, name, &Entry::Value(entry), &origin);
     put_scale(&mut file, &machine, index, (data, found, table), &origin);
 

@@ -3,8 +3,7 @@
 use super::words;
 use super::{MachineChoice, named_control};
 use std::path::PathBuf;
-use trueaxis_input::{Diagnostics, Files, Place};
-use trueaxis_machine::Machine;
+use trueaxis_input::{Diagnostics, Files};
 use trueaxis_motion::{Densify, Job, Options, ProgramFiles, Stop, Timing};
 
 /// An NC program and how it is simulated. Texts are as typed: plain numbers in mm and degrees.
@@ -74,7 +73,7 @@ impl ProgramChoice {
     ) -> Option<Job> {
         let place = machine.place();
         let (machine, temperatures) = machine.read_from(files, problems)?;
-        let machine = running(machine, place, problems);
+        let machine = machine.running("simulated", place, problems);
         let named = ProgramFiles {
             files,
             program: &self.program,
@@ -120,15 +119,6 @@ impl ProgramChoice {
         let (rounding_mm, usual) = (rounding_mm?, Options::default());
         Some(Options { densify, rounding_mm, timing, most_jumps, keep_going, ..usual })
     }
-}
-
-/// The machine as it runs: what its control compensates by active tables is no error of it; a note says which.
-fn running(machine: Machine, place: Place, problems: &mut Diagnostics) -> Machine {
-    let Some(names) = machine.active_names() else { return machine };
-    let message = format!("simulated without {names}: the control compensates them");
-    let hint = "the machine file says under [compensation] that their tables are active; take out what is not";
-    problems.note("already-active", place, message, hint);
-    machine.as_running()
 }
 
 #[cfg(test)]

@@ -2,9 +2,7 @@
 
 use super::{Answer, Question, Tell, with_diagnostics};
 use crate::report::{self, CalibrationsReport};
-use crate::verify::calibrations::{
-    Calibrations, TwoTemperatures, at_temperatures_of, calibrations,
-};
+use crate::verify::calibrations::{Calibrations, TwoTemperatures, calibrations};
 use crate::verify::certificate::{Certificate, PoseFault, Study, certify, read_certificate};
 use crate::verify::compare::{Comparison, ComparisonResult, compare, read_comparison};
 use serde_json::Value;
@@ -84,7 +82,6 @@ pub struct CompareCalibrations {
 /// Two calibrations with what moved between them.
 #[derive(Debug)]
 pub struct CalibrationsAnswer {
-    old: Machine,
     new: Machine,
     names: [String; 2],
     found: Calibrations,
@@ -93,7 +90,12 @@ pub struct CalibrationsAnswer {
 impl CalibrationsAnswer {
     fn shown(&self) -> CalibrationsReport<'_> {
         let [old, new] = &self.names;
-        CalibrationsReport { old: &self.old, new: &self.new, files: [old, new], found: &self.found }
+        CalibrationsReport {
+            old: &self.found.older,
+            new: &self.new,
+            files: [old, new],
+            found: &self.found,
+        }
     }
 }
 
@@ -125,8 +127,7 @@ impl Question for CompareCalibrations {
                         "[scale.X] expansion = \"10.8 um/(m K)\" refers them to one temperature";
                     problems.note("two-temperatures", whole(&self.new), message, hint);
                 }
-                let old = at_temperatures_of(&old, &new).0;
-                Some(CalibrationsAnswer { old, new, names, found })
+                Some(CalibrationsAnswer { new, names, found })
             }
             Err(reason) => {
                 let hint = "name two machine files of one machine, the older first";

@@ -1,6 +1,8 @@
 //! Two calibrations of one machine, as text and page.
 
-use crate::verify::calibrations::{Calibrations, ErrorChange, Significance, TwoTemperatures};
+use crate::verify::calibrations::{
+    Calibrations, ErrorChange, Significance, Stated, TwoTemperatures,
+};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Travel;
 use trueaxis_machine::describe::{command_words, shown, unit};
@@ -141,18 +143,10 @@ impl CalibrationsReport<'_> {
         let Travel::Between(from, to) = axis.travel else { return None };
         let (unit_of_error, scale) = scale_of(error);
         let curve = |machine: &Machine, label: &str, colour| {
-            let stated = machine.bodies()[index.body].stated(index.kind, index.component)?;
+            let stated = Stated::of(&machine.bodies()[index.body], index.kind, index.component)?;
             let at = |i: usize| from + (to - from) * i as f64 / (PLACES - 1) as f64;
             let places = (0..PLACES).map(at).filter_map(|q| {
-                let mut value = stated.at(q, 0.0).ok()?;
-                let mut u = stated.u_at(q);
-                // The old one at the temperature of the new one.
-                let terms = machine.bodies()[index.body].thermal.iter();
-                for term in terms.filter(|t| t.kind == index.kind && t.component == index.component)
-                {
-                    value += term.at(q);
-                    u = u.hypot(term.u_at(q));
-                }
+                let (value, u) = (stated.at(q, 0.0)?, stated.u_at(q).unwrap_or(0.0));
                 Some((shown(axis, q), value * scale, 2.0 * u * scale))
             });
             let (label, points) = (label.to_owned(), Vec::new());

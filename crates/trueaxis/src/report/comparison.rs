@@ -82,7 +82,7 @@ fn set_up<'a>(task: &'a Comparison, verified: &'a ComparisonResult) -> Option<Se
         let agrees = if d.is_contradicted() { "no" } else { "yes" };
         let instrument = task.campaign.instruments[d.instrument].name.clone();
         let [value, u] = [d.value, d.u].map(|v| format!("{v:.2}"));
-        [instrument, d.unknown.clone(), value, u, d.unit[1].to_owned(), agrees.to_owned()]
+        [instrument, d.unknown.clone(), value, u, d.unit.to_owned(), agrees.to_owned()]
     });
     let note = "u: of the difference where machine file and statement are right";
     let section = || Section::new("Set-up").table(Table::new(headings).rows(rows).note(note));

@@ -137,7 +137,7 @@ impl<'a> VerifyDocument<'a> {
             DifferenceEntry::of(&task.campaign.instruments[instrument], line, d)
         });
         let set_up = verified.set_up.iter().map(|d| {
-            let unit = d.unit[0];
+            let unit = d.unit.replace('µ', "u").replace('/', "_per_");
             let values = [(format!("deviation_{unit}"), d.value), (format!("u_{unit}"), d.u)];
             SetUpEntry {
                 instrument: &task.campaign.instruments[d.instrument].name,

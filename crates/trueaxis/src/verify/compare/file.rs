@@ -140,6 +140,9 @@ fn read_machine(
         item.error("other-chain", message, "both describe the same machine");
         return None;
     }
+    let mut problems = Diagnostics::new();
+    let machine = machine.running("predicted", item.place(), &mut problems);
+    section.take_over(problems);
     let Some(conditions) = conditions else { return Some(machine) };
     let mut problems = Diagnostics::new();
     let warm = machine.at(conditions, &mut problems);

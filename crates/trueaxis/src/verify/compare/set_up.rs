@@ -5,8 +5,8 @@
 //! ```
 
 use nalgebra::DMatrix;
-use trueaxis_measure::instruments::instrument::SetupError;
 use trueaxis_measure::measure::Instrument;
+use trueaxis_measure::unknowns::design::Unknown;
 
 /// Quantile of the normal distribution for 99.9 %, two-sided: a correct file is rejected so once in a thousand.
 const NORMAL_999: f64 = 3.290_526_731;
@@ -25,8 +25,8 @@ pub struct SetUpDeviation {
     pub value: f64,
     /// Its standard uncertainty where machine file and statement are right. Unit: µm, µrad, µm/m or by the hour.
     pub u: f64,
-    /// Key and symbol of this unit.
-    pub unit: [&'static str; 2],
+    /// This unit.
+    pub unit: &'static str,
 }
 
 impl SetUpDeviation {
@@ -54,29 +54,9 @@ pub(super) fn deviations(
         let least = LEAST_SHARE * stated * stated;
         let square =
             (stated * stated - covariance[(k, k)]).max(least) + taken.row(k).norm_squared();
-        let (unit, scale) = unit(unknown.error, of);
-        let unknown = unknown.name.clone();
-        found.push(SetUpDeviation {
-            instrument,
-            unknown,
-            value: value * scale,
-            u: square.sqrt() * scale,
-            unit,
-        });
+        let (unit, scale) = Unknown::Setup(of, unknown).shown_unit();
+        let [value, u] = [*value, square.sqrt()].map(|v| v * scale);
+        found.push(SetUpDeviation { instrument, unknown: unknown.name.clone(), value, u, unit });
     }
     found
-}
-
-/// Key and symbol of the unit, and its factor from mm, rad, 1 or these by the hour.
-fn unit(error: SetupError, of: &Instrument) -> ([&'static str; 2], f64) {
-    let turns = matches!(error, SetupError::ReferenceTurn(_) | SetupError::Tilt(_));
-    let reads_angles =
-        matches!(error, SetupError::Zero(_) | SetupError::Drift(_)) && of.sight.is_angle();
-    match (error.is_share(), error.is_rate(), turns || reads_angles) {
-        (true, ..) => (["um_per_m", "µm/m"], 1e6),
-        (_, true, true) => (["urad_per_h", "µrad/h"], 1e6),
-        (_, true, false) => (["um_per_h", "µm/h"], 1e3),
-        (_, _, true) => (["urad", "µrad"], 1e6),
-        _ => (["um", "µm"], 1e3),
-    }
 }

@@ -13,7 +13,7 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::chain::Link;
 use trueaxis_machine::describe::lines::{Lines, header};
 use trueaxis_machine::describe::replacement::{
-    Entry, NewTables, machine_of_text, measured_text, plain, put, take_out_of_table,
+    Entry, NewTables, machine_of_text, measured_and_closed, plain, put, take_out_of_table,
 };
 use trueaxis_machine::errors::{Component, ErrorIndex, ErrorName, ErrorValues, Measurement};
 use trueaxis_machine::file::Tables;
@@ -62,8 +62,8 @@ pub fn machine_files(
         if let Some(outside) = outside.filter(|_| file.key(&header, "outside").is_none()) {
             let _ = write!(entry, ", outside = {outside}");
         }
-        entry += &measured(table);
-        put(&mut file, table.name, &Entry::Value(entry + " }"), &origin);
+        entry += &measured_and_closed(&measured(table));
+        put(&mut file, table.name, &Entry::Value(entry), &origin);
     }
     for found in squarenesses {
         let value =
@@ -102,13 +102,12 @@ fn one_line(text: &str) -> String {
     text.replace(['\n', '\r'], " ")
 }
 
-fn measured(table: &ErrorTable) -> String {
-    let measured = Measurement {
+fn measured(table: &ErrorTable) -> Measurement {
+    Measurement {
         instrument: table.instrument.clone(),
         date: table.date.clone(),
         temperature_celsius: table.celsius,
-    };
-    measured_text(&measured).map_or_else(String::new, |text| format!(", measured = {text}"))
+    }
 }
 
 fn csv_text(study: &TableStudy, table: &ErrorTable) -> String {
