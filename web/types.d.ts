@@ -2321,6 +2321,10 @@ export interface CompensateProgram {
    */
   undecided_reversals: number;
   /**
+   * Cuts that begin where no corrected word leads, as after a move to machine zero: their ways are not part of the proof.
+   */
+  begins_elsewhere: number;
+  /**
    * Blocks that stay as they are, by reason.
    */
   left: {
@@ -11089,6 +11093,10 @@ export interface ProgramDocument {
    * Places where an axis reverses by less than its reversal error.
    */
   undecided_reversals: number;
+  /**
+   * Cuts that begin where no corrected word leads, as after a move to machine zero: their ways are not part of the proof.
+   */
+  begins_elsewhere: number;
   /**
    * Blocks that stay as they are, by reason.
    */

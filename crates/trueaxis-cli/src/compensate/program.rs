@@ -20,11 +20,12 @@ Examples:
 Words, comments and blocks that need no change stay as they are, byte by byte. The written program is
 read back and simulated on the actual machine; where it does not keep the residual, nothing is written.
 Retracts, moves to machine zero or to a reference point and rapids from which no cut begins stay as they
-are. Words are added to cutting blocks only; each is listed. Computed words keep their expression, and
-the correction of this run is added to it: X=R1+5 becomes X=(R1+5)+0.012. Loops, subprograms that are
-called again and cycles are unrolled where they need corrections (the lines of the report are then those
-of the unrolled program, and computed words have numbers). Exit status: 0 written and proved, 1 not
-proved, 2 unusable input or a block that cannot be corrected.")]
+are. Words are added to cutting blocks and to the last rapid before a cut, where an axis that it does
+not name stands elsewhere; each is listed. Computed words keep their expression, and the correction of
+this run is added to it: X=R1+5 becomes X=(R1+5)+0.012. Loops, subprograms that are called again and
+cycles are unrolled where they need corrections (the lines of the report are then those of the unrolled
+program, and computed words have numbers). Exit status: 0 written and proved, 1 not proved, 2 unusable
+input or a block that cannot be corrected.")]
 pub struct ProgramArguments {
     #[command(flatten)]
     machine: MachineArguments,

@@ -117,6 +117,13 @@ impl ProgramReport<'_> {
             let Expression { line, was, is } = first;
             remarks.push(format!("the first of them is {was} at line {line}, now {is}"));
         }
+        if let Some(line) = found.begins_elsewhere.first() {
+            let count = found.begins_elsewhere.len();
+            remarks.push(format!(
+                "{count} cuts begin where no corrected word leads (the first at line {line}): their way from there to their \
+                 corrected end is not part of the proof"
+            ));
+        }
         for (why, count) in &found.left {
             remarks.push(format!("{count} blocks are left as they were: {why}"));
         }

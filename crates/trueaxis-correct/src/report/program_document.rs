@@ -40,6 +40,8 @@ pub struct ProgramDocument<'a> {
     pub feeds_changed: u64,
     /// Places where an axis reverses by less than its reversal error.
     pub undecided_reversals: u64,
+    /// Cuts that begin where no corrected word leads, as after a move to machine zero: their ways are not part of the proof.
+    pub begins_elsewhere: u64,
     /// Blocks that stay as they are, by reason.
     pub left: &'a BTreeMap<&'static str, u64>,
     /// Places where the tool axis keeps its deviation, by reason.
@@ -211,6 +213,7 @@ impl<'a> ProgramDocument<'a> {
             proved: r.rewritten.is_proved(),
             feeds_changed: found.feeds_changed,
             undecided_reversals: found.undecided,
+            begins_elsewhere: found.begins_elsewhere.len() as u64,
             left: &found.left,
             axis_left: &found.axis_left,
             position_only: r.options.position_only,

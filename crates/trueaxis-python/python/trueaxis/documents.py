@@ -578,6 +578,8 @@ class CompensateProgramDocument(Record):
     feeds_changed: int
     #: Places where an axis reverses by less than its reversal error.
     undecided_reversals: int
+    #: Cuts that begin where no corrected word leads, as after a move to machine zero: their ways are not part of the proof.
+    begins_elsewhere: int
     #: Blocks that stay as they are, by reason.
     left: Mapping[str, int]
     #: Places where the tool axis keeps its deviation, by reason.

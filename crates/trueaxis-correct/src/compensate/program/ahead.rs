@@ -64,6 +64,8 @@ pub(super) struct Lead {
     pub axes: AxisSet,
     /// Where the axes stand there.
     pub begin: Command,
+    /// No other move is between it and the cut: what no word led to its place yet it does by words of its own.
+    pub is_last: bool,
 }
 
 /// A, B and C as an [`AxisSet`].
@@ -78,6 +80,7 @@ fn is_cut(m: &Move) -> bool {
 fn lead_to_cut(steps: &mut [Ahead]) {
     let mut replaced = AxisSet::default();
     let Some(begin) = steps.last().map(|cut| cut.begin) else { return };
+    let mut is_last = true;
     for ahead in steps.iter_mut().rev().skip(1) {
         let Step::Move(m) = &ahead.step else { continue };
         if is_cut(m) {
@@ -87,9 +90,10 @@ fn lead_to_cut(steps: &mut [Ahead]) {
             // A direction leads all rotary axes.
             let turned = if m.direction.is_some() { ROTARY } else { 0 };
             let named = m.named.0 | turned;
-            ahead.lead = Lead { axes: AxisSet(named & !replaced.0), begin };
+            ahead.lead = Lead { axes: AxisSet(named & !replaced.0), begin, is_last };
             replaced = AxisSet(replaced.0 | named);
         }
+        is_last &= ahead.nodes.is_empty() || matches!(m.kind, MoveKind::Dwell { .. });
     }
 }
 

@@ -24,9 +24,10 @@ pub(super) struct Block<'b> {
     pub feed_unit: Unit,
     pub control: Control,
     pub grid: Grid,
-    /// The axes whose words are corrected, if the block is no cut: the others keep their words, and no
-    /// word is added.
+    /// The axes whose words are corrected, if the block is no cut: the others keep their words.
     pub only: Option<AxisSet>,
+    /// Of such a block: words are added where an axis stands farther than this from where the cut begins, mm and rad; `None`: never.
+    pub adds_beyond: Option<[f64; 2]>,
     /// The circle that the block becomes, if it stays one.
     pub arc: Option<Arc>,
     /// The tool axis is programmed by vectors.
@@ -127,9 +128,7 @@ impl Block<'_> {
                 self.axis(axis, (now[axis], wanted[axis]), step.piece, &mut m, &mut puts)?;
             }
         }
-        let turns =
-            self.only.is_none_or(|only| only.contains(Axis::A) && self.m.direction.is_some());
-        if self.vectors && turns {
+        if self.vectors && self.turns(path, aimed) {
             self.direction(path, (step.piece, aimed), &mut m, &mut puts)?;
         } else if self.only.is_some() {
             m.direction = self.m.direction;
@@ -147,6 +146,26 @@ impl Block<'_> {
             self.functions_at_end();
         }
         Ok(Next { m, feed_again })
+    }
+
+    /// Whether the block leads the tool axis, or has to.
+    fn turns(&self, path: &AxisPath<'_>, aimed: &Command) -> bool {
+        let Some(only) = self.only else { return true };
+        if self.m.direction.is_some() {
+            return only.contains(Axis::A);
+        }
+        let directions = path.direction_of(aimed).zip(path.direction_of(path.command()));
+        self.adds_beyond.zip(directions).is_some_and(|([_, rad], (wanted, now))| {
+            wanted.iter().zip(now).any(|(wanted, now)| (wanted - now).abs() > rad)
+        })
+    }
+
+    /// Whether an axis that has no word in a block before a cut gets one, which leads it by so much, mm or deg.
+    fn adds(&self, axis: Axis, by: f64) -> bool {
+        let named = self.m.named.contains(axis);
+        self.adds_beyond.is_some_and(|[mm, rad]| {
+            !named && by.abs() > if axis.is_rotary() { rad.to_degrees() } else { mm }
+        })
     }
 
     fn kind(&self) -> MoveKind {
@@ -211,7 +230,8 @@ impl Block<'_> {
         puts: &mut Vec<Put>,
     ) -> Result<(), Fault> {
         let of = if axis.is_rotary() { Of::Rotary } else { Of::Linear };
-        if self.only.is_some_and(|only| !only.contains(axis)) {
+        let is_led = self.only.is_none_or(|only| only.contains(axis));
+        if !is_led && !self.adds(axis, wanted - now) {
             return self.stays(axis, m);
         }
         let words = self.words;

@@ -56,6 +56,8 @@ pub struct Found {
     pub feeds_changed: u64,
     /// Places where an axis reverses by less than its reversal error, or by rounding alone.
     pub undecided: u64,
+    /// Cuts that begin where no corrected word leads, by their lines: the proof leaves their ways out.
+    pub begins_elsewhere: Vec<u32>,
     /// Blocks that stay as they are, by reason.
     pub left: BTreeMap<&'static str, u64>,
     /// Places where the tool axis keeps its deviation, by reason.

@@ -318,7 +318,11 @@ impl<'w> Walk<'w> {
             Some(control) if !whole => self.cut(control).ends(&samples),
             _ => vec![samples.len() - 1],
         };
-        let approaching = std::mem::take(&mut self.approaching);
+        let mut approaching = std::mem::take(&mut self.approaching);
+        if approaching && lead.is_none() {
+            approaching = self.is_elsewhere(&samples[0].command);
+            self.found.begins_elsewhere.extend(approaching.then_some(m.origin.line));
+        }
         let first_time = !self.text.was_executed(m.origin.line);
         let end_only = whole || approaching;
         let held = lead.map_or(Ok(None), |lead| self.held(m, way, &lead))?;
@@ -341,6 +345,7 @@ impl<'w> Walk<'w> {
             control: self.text.control(),
             grid,
             only: lead.map(|lead| lead.axes),
+            adds_beyond: lead.filter(|lead| lead.is_last).map(|_| residual_share(self.options)),
             arc: None,
             vectors: self.vectors,
             feed_again: self.feed_again.take(),
@@ -480,12 +485,12 @@ impl<'w> Walk<'w> {
         Err(refusal(m.origin, "in-subprogram", message, hint))
     }
 
-    /// Whether the written program is not at axis positions, within the share of the residual.
+    /// Whether the written program is not at axis positions, within what may be missed on the way.
     fn is_elsewhere(&self, wanted: &Command) -> bool {
         let Some(control) = self.written.control() else { return true };
         let [tip, axis] =
             Stand::of(control, self.written.command()).from(&Stand::of(control, wanted));
-        let [tip_mm, axis_rad] = residual_share(self.options);
+        let [tip_mm, axis_rad] = self.options.limits_between();
         // NaN is elsewhere.
         !(tip <= tip_mm && axis <= axis_rad)
     }
