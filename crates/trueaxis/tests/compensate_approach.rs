@@ -264,6 +264,13 @@ fn law_each_cut_begins_where_it_should_whichever_axes_are_named() {
     ] {
         begins("three-axis-mill", Control::Fanuc, &format!("{mill}{between}{end}"));
     }
+    // In increments, with retracts that stay as they are: they count from where the tool stands.
+    let increments = "G21 G17 G90 G94\nG0 X150. Y100. Z-390.\nG91 G1 Z-8. F300.\nX9.\nG0 Z300.\n";
+    for between in ["X100.\nZ-298.\n", "X100. Y-80.\nZ-200.\nZ-98.\n", "Z10.\nX100.\nZ-308.\n"] {
+        let text =
+            format!("{increments}{between}G1 Z-2.\nX5.\nG0 Z300.\nX20.\nZ-300.\nG1 Y5.\nM30\n");
+        begins("three-axis-mill", Control::Fanuc, &text);
+    }
     let table = "G21 G17 G90 G94\nG0 X10. Y10. Z40. A-30. C45.\nG1 Z30. F300.\nG0 Z40.\n";
     let end = "G1 Z30.\nX20. A-25.\nG49\nM30\n";
     for between in ["X60.\n", "A20.\n", "C-45.\n", "X60. C90.\nA-50.\n", "G91 C20.\nG90\n"] {

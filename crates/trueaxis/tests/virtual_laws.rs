@@ -4,12 +4,15 @@ mod library;
 
 use library::{MACHINES, Random, bare, machine};
 use std::path::PathBuf;
+use std::sync::Arc;
 use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
-use trueaxis::input::Place;
+use trueaxis::input::{Diagnostics, Place};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{AxisKind, Command, MAX_AXES, Travel};
 use trueaxis::machine::errors::{ErrorIndex, ErrorName, StatedError};
+use trueaxis::machine::file::NoTables;
+use trueaxis::machine::heat::{Conditions, TemperatureLog};
 use trueaxis::measure::instrument::{Instrument, SetupError, SetupUnknown};
 use trueaxis::measure::path::{Path, station};
 use trueaxis::measure::stages::{BallStage, Stage};
@@ -278,10 +281,6 @@ fn law_zeros_drift_with_the_time_of_the_campaign() {
 
 #[test]
 fn law_a_log_of_temperatures_warms_the_true_machine() {
-    use std::sync::Arc;
-    use trueaxis::input::Diagnostics;
-    use trueaxis::machine::file::NoTables;
-    use trueaxis::machine::heat::TemperatureLog;
     let text = "[machine]\nname = \"warm\"\nchain = \"w b X Y Z t\"\n[scale.X]\n\
                 expansion = \"10 um/(m K)\"\ntable_temperature = \"20 degC\"\n\
                 sensors = { scale_x = \"0 mm\" }\n";
@@ -478,6 +477,44 @@ fn law_u_covers_what_it_should_over_many_campaigns() {
     // move all readings together it is skewed, and one in twenty is refused (21 here).
     assert!(refused < 30, "{refused} of 400");
     assert!((noise_only as f64) < 0.8 * count as f64, "{noise_only} of {count}");
+}
+
+/// Coefficients of expansion are uncertain also where no error of their axis is stated, and that of the workpiece for what touches it.
+#[test]
+fn law_u_covers_the_coefficients_of_scale_and_workpiece() {
+    let text = "[machine]\nname = \"warm\"\nchain = \"w b X Y Z t\"\n[scale.X]\n\
+                expansion = \"10 ± 0.5 um/(m K)\"\ntable_temperature = \"20 degC\"\n\
+                sensors = { scale_x = \"0 mm\" }\n[workpiece]\nexpansion = \"12 ± 1 um/(m K)\"\n\
+                sensors = { part = \"0 mm\" }\n";
+    let cold = Machine::check("warm.toml", text, &NoTables).0.expect("a machine");
+    let conditions = Conditions::typed("test", "scale_x=30 part=26", &mut Diagnostics::new());
+    let conditions = conditions.expect("temperatures");
+    let warm = cold.at(&conditions, &mut Diagnostics::new()).expect("warm");
+    assert_eq!(warm.uncertain_quantities().len(), 2);
+    let commands: Vec<Command> =
+        (1..=8).map(|k| [100.0 * f64::from(k), 0.0, 0.0, 0.0, 0.0, 0.0]).collect();
+    // u of the largest reading: 10 K · 0.5 µm/(m K) · 0.8 m, and 6 K · 1 µm/(m K) · 0.8 m, and 1 µm of noise.
+    for (kind, u_um) in
+        [(Kind::LaserLine, 4.0_f64.hypot(1.0)), (Kind::CutPiece, 4.0_f64.hypot(4.8).hypot(1.0))]
+    {
+        let campaign = campaign(&warm, instrument(kind, &warm));
+        let mut random = Random(27);
+        let (mut inside, mut count) = (0, 0);
+        for seed in 0..400 {
+            let mut real = real(&campaign, &warm, path(&campaign, &commands, None));
+            (real.truth.seed, real.disturb.noise) = (seed, 1.0);
+            real.truth.factors = Some(Drawn::new(&warm, || normal(&mut random)));
+            let against = ComparisonBasis::Prediction(Box::new(warm.clone()));
+            let found = compare(&comparison(&campaign, read(&campaign, &real).readings, against))
+                .expect("a fit");
+            let largest = found.deviations.iter().map(|d| d.expanded).fold(0.0, f64::max);
+            assert!((largest / (2e-3 * u_um) - 1.0).abs() < 1e-3, "{kind:?}: {largest}");
+            inside += found.coverage.inside;
+            count += found.coverage.count;
+        }
+        let share = inside as f64 / count as f64;
+        assert!((0.93..0.98).contains(&share), "{kind:?}: {share}");
+    }
 }
 
 /// What is stated of the set-up is kept by right readings as its u says, and contradicted by a machine that fits only elsewhere,

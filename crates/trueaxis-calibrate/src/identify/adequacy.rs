@@ -19,6 +19,7 @@ use trueaxis_measure::unknowns::design::Design;
 use trueaxis_measure::unknowns::determined::{Determined, all_before};
 use trueaxis_measure::unknowns::fit::{Fit, FitError, Model, Rule, fit_by};
 use trueaxis_measure::unknowns::mixed::{Rest, Sizes, Sums};
+use trueaxis_measure::unknowns::stated::Stated;
 use trueaxis_measure::unknowns::unlisted::{self, Follows, Unlisted};
 
 /// How often the residual of a good campaign is called too large.
@@ -181,7 +182,10 @@ pub fn adequacy(task: Task<'_>) -> Result<Adequacy, FitError> {
     let explained = |sizes: &Sizes| -> Result<Explained, FitError> {
         let freedom = rest.as_ref().map(|rest| degrees_of_freedom(&prepared, (&sums, rest), sizes));
         let freedom = freedom.unwrap_or_else(|| vec![None; task.design.unknowns()]);
-        Ok(Explained { degrees_of_freedom: freedom, ..Explained::of(task, unlisted, sizes)? })
+        let mut explained = Explained::of(task, unlisted, sizes)?;
+        explained.degrees_of_freedom = freedom;
+        explained.add_stated(task);
+        Ok(explained)
     };
     let mut explained_by = explained(first)?;
     for other in &explanations[1..] {
@@ -210,6 +214,8 @@ pub struct Explained {
     pub listed: Determined,
     /// Effective degrees of freedom of the uncertainty of each; `None`: infinitely many. Unit: 1.
     pub degrees_of_freedom: Vec<Option<f64>>,
+    /// What the machine file states with an uncertainty: its name, and how one standard uncertainty moves each.
+    pub stated: Vec<(String, Vec<f64>)>,
 }
 
 impl Explained {
@@ -237,7 +243,30 @@ impl Explained {
             seen: of(&all.seen),
             is_determined: places.iter().map(|k| all.is_determined[*k]).collect(),
         };
-        Ok(Self { design, fit, listed: own, degrees_of_freedom: Vec::new() })
+        Ok(Self { design, fit, listed: own, degrees_of_freedom: Vec::new(), stated: Vec::new() })
+    }
+
+    /// Adds what the machine file states with an uncertainty and is not to be determined (docs/model.md eq. 346); that is known exactly
+    /// (GUM G.4.3), as G.4.2 counts its degrees of freedom.
+    fn add_stated(&mut self, task: Task<'_>) {
+        let Task { design: listed, readings, weights, .. } = task;
+        let stated = Stated::of(&self.design, readings);
+        if stated.quantities() == 0 {
+            return;
+        }
+        let moved = stated.moved((&self.design, &self.fit.sight), readings, weights);
+        let further = self.design.terms.len() - listed.terms.len();
+        let moved = moved.select_rows(&places(listed, further));
+        let added = &moved * moved.transpose();
+        for (k, freedom) in self.degrees_of_freedom.iter_mut().enumerate() {
+            let before = self.listed.covariance[(k, k)];
+            let times = if before > 0.0 { 1.0 + added[(k, k)] / before } else { 1.0 };
+            *freedom = freedom.map(|count| count * times * times);
+        }
+        let columns = moved.column_iter().map(|column| column.iter().copied().collect());
+        self.stated = stated.names().iter().cloned().zip(columns).collect();
+        self.listed.covariance += &added;
+        self.listed.seen += added;
     }
 
     /// The larger uncertainty of both with its degrees of freedom, unknown by unknown: which explanation is right is not

@@ -15,6 +15,8 @@ const MOST_NAMED: usize = 10;
 const NOT_FOUND: f64 = 0.5;
 /// An error that follows a length by this correlation rests on it. Unit: 1.
 const RESTS_ON: f64 = 0.5;
+/// More than this share of a standard uncertainty is most of its square. Unit: 1.
+const MOSTLY: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Readings that are predicted by less than this share of the residual of their own fit contain the answer.
 const TOO_GOOD: f64 = 0.7;
 /// Farther from the ball than this it is not a matter of decimals, mm.
@@ -73,6 +75,7 @@ pub(super) fn check_result(
     problems: &mut Diagnostics,
 ) {
     tell_lengths(found, campaign, problems);
+    tell_stated(found, campaign, problems);
     tell_gross(found, records, problems);
     tell_closure(found, records, problems);
     tell_rounded(found, records, campaign, problems);
@@ -152,6 +155,26 @@ fn tell_lengths(found: &Identification, campaign: &Place, problems: &mut Diagnos
             instrument.kind.tool_point()
         );
         problems.warn("length-assumed", campaign.clone(), message, &hint);
+    }
+}
+
+/// Errors whose uncertainty is mostly that of something that the machine file states.
+fn tell_stated(found: &Identification, campaign: &Place, problems: &mut Diagnostics) {
+    for (quantity, moves) in &found.adequacy.explained.stated {
+        let rests = |i: &usize| {
+            let u = found.found[*i].value.map_or(f64::INFINITY, |(_, u)| u);
+            moves[*i].abs() > MOSTLY * u
+        };
+        let terms = (0..found.design.terms.len()).filter(rests);
+        let names: Vec<&str> = terms.map(|i| found.found[i].name.as_str()).collect();
+        if !names.is_empty() {
+            let message = format!(
+                "U of {} is mostly that of {quantity}, which the machine file states: no further reading makes it smaller",
+                names.join(", ")
+            );
+            let hint = "state it better, list it among the unknowns, or measure at the temperature of the error table";
+            problems.note("rests-on-stated", campaign.clone(), message, hint);
+        }
     }
 }
 

@@ -17,6 +17,7 @@ use trueaxis_machine::axis::{Axis, AxisKind};
 use trueaxis_measure::unknowns::design::Design;
 use trueaxis_measure::unknowns::fit::linear_residuals;
 use trueaxis_measure::unknowns::mixed::Sizes;
+use trueaxis_measure::unknowns::stated::Stated;
 
 /// Angles of a rotary axis that are held out one after the other; with more it is swept, not set.
 const ANGLES: std::ops::RangeInclusive<usize> = 3..=24;
@@ -60,7 +61,12 @@ pub(super) fn predictor(
     task: Task<'_>,
 ) -> Option<Predictor> {
     let values = all.values(sums, explanations.first()?)?;
-    let covariance = covariance(all, (sums, explanations), &values)?;
+    let mut covariance = covariance(all, (sums, explanations), &values)?;
+    let first = explanations.first()?;
+    let stated = Stated::of(&all.all, task.readings);
+    let gain = all.covariance(sums, first)? / first.noise.powi(2);
+    let moved = gain * stated.pull(task.readings, task.weights);
+    covariance += &moved * moved.transpose();
     let in_sample = rms(all, task, |_| &values);
     let mut splits = Vec::new();
     if task.scores && task.readings.len() <= MOST_ROWS {

@@ -9,6 +9,7 @@ use trueaxis_measure::unknowns::confusion::Confusion;
 use trueaxis_measure::unknowns::design::{Design, Unknown};
 use trueaxis_measure::unknowns::determined::{Determined, members_that_matter};
 use trueaxis_measure::unknowns::fit::{Observability, normal_matrix};
+use trueaxis_measure::unknowns::stated::Stated;
 
 /// How large an error is taken to be where its effect is shown: 10 µm or 10 µrad, in mm and rad.
 pub const USUAL_SIZE: f64 = 0.01;
@@ -65,10 +66,13 @@ pub struct Expectation {
     pub covariance: DMatrix<f64>,
 }
 
-/// The uncertainties that these stations will give, by the stated noise of the instruments.
+/// The uncertainties that these stations will give, by the stated noise of the instruments and what the machine file states with an
+/// uncertainty.
 pub fn expect(campaign: &Campaign, design: &Design, stations: &Readings) -> Expectation {
     let sight = Observability::of(&normal_matrix(design, stations, &[]));
-    let determined = Determined::expected(design, &sight);
+    let mut determined = Determined::expected(design, &sight);
+    let moved = Stated::of(design, stations).moved((design, &sight), stations, &[]);
+    determined.covariance += &moved * moved.transpose();
     let unknowns = (0..design.unknowns()).filter_map(|k| {
         let unknown = design.unknown(k)?;
         let u = determined.is_determined[k].then(|| determined.u(k));

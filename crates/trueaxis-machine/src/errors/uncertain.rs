@@ -68,6 +68,22 @@ impl Uncertainties {
         displaced
     }
 
+    /// The errors that some quantity moves; one that several move comes several times.
+    pub fn errors_moved(&self) -> impl Iterator<Item = ErrorIndex> {
+        self.0.iter().filter_map(|(_, effect)| match effect {
+            Effect::Error(index, _) => Some(*index),
+            Effect::Workpiece(_) => None,
+        })
+    }
+
+    /// The quantity that lets the workpiece grow, and by how much at one standard uncertainty, mm.
+    pub fn of_workpiece(&self) -> Option<(usize, Vec3)> {
+        self.0.iter().find_map(|(quantity, effect)| match effect {
+            Effect::Workpiece(u_mm) => Some((*quantity, *u_mm)),
+            Effect::Error(..) => None,
+        })
+    }
+
     /// What one standard uncertainty of each quantity adds to some errors: a row for each quantity.
     pub fn of_quantities(&self, quantities: usize, errors: &[ErrorIndex]) -> DMatrix<f64> {
         let mut moved = DMatrix::zeros(quantities, errors.len());

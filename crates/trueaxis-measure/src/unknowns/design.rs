@@ -257,10 +257,22 @@ impl Design {
         i: usize,
         values: &[f64],
     ) -> Result<[f64; 3], CommandFault> {
+        self.read_with(readings, i, values, |_| {})
+    }
+
+    /// The same with errors that are changed before they are read.
+    pub(super) fn read_with(
+        &self,
+        readings: &Readings,
+        i: usize,
+        values: &[f64],
+        change: impl Fn(&mut ErrorValues),
+    ) -> Result<[f64; 3], CommandFault> {
         let of = readings.instruments[i] as usize;
         let instrument = &self.instruments[of];
         let command = &readings.commands[i];
-        let errors = self.errors_in(command, &readings.moment(i), values)?;
+        let mut errors = self.errors_in(command, &readings.moment(i), values)?;
+        change(&mut errors);
         let actual = instrument.tool_seen(&self.machine, command, &errors);
         let nominal = match instrument.sight {
             Sight::Along if instrument.material.is_none() => actual, // it does not ask for it

@@ -86,6 +86,12 @@ impl Determined {
         Self { values, covariance, seen, is_determined }
     }
 
+    /// How the values move where those of the fit move so: a column for each change.
+    pub fn moved(design: &Design, sight: &Observability, changes: &DMatrix<f64>) -> DMatrix<f64> {
+        let (project, _) = projection(sight, &all_before(design));
+        project * changes
+    }
+
     /// The combinations that change no reading and in which an unknown has so large a part that it is not determined.
     pub fn confusions(&self, design: &Design, sight: &Observability) -> Vec<Confusion> {
         let mut all = confusions(sight);
@@ -115,15 +121,20 @@ fn limit(
     values: &[f64],
     covariance: &DMatrix<f64>,
 ) -> Limit {
-    let unseen = unseen(sight, scale);
-    let n = values.len();
-    let hidden = DMatrix::from_fn(n, unseen.ncols(), |k, j| scale[k] * unseen[(k, j)]);
-    let reading = DMatrix::from_fn(unseen.ncols(), n, |j, k| unseen[(k, j)] / scale[k]);
-    let project = DMatrix::identity(n, n) - &hidden * reading;
+    let (project, hidden) = projection(sight, scale);
     let values = &project * DVector::from_column_slice(values);
     let seen = &project * covariance * project.transpose();
     let covariance = &seen + &hidden * hidden.transpose();
     Limit { values, seen, covariance }
+}
+
+/// P, and what is not seen: L Q.
+fn projection(sight: &Observability, scale: &DVector<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
+    let unseen = unseen(sight, scale);
+    let n = scale.len();
+    let hidden = DMatrix::from_fn(n, unseen.ncols(), |k, j| scale[k] * unseen[(k, j)]);
+    let reading = DMatrix::from_fn(unseen.ncols(), n, |j, k| unseen[(k, j)] / scale[k]);
+    (DMatrix::identity(n, n) - &hidden * reading, hidden)
 }
 
 /// An orthonormal basis of what is not seen, in units of what was not known before.

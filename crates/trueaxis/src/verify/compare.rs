@@ -21,18 +21,16 @@ pub use file::read_comparison;
 pub use pairs::{Pairs, pair};
 pub use set_up::SetUpDeviation;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use std::collections::BTreeMap;
 use trueaxis_machine::Machine;
-use trueaxis_machine::errors::ErrorIndex;
 use trueaxis_measure::measure::Campaign;
 use trueaxis_measure::measure::Instrument;
 use trueaxis_measure::measure::Readings;
 use trueaxis_measure::unknowns::design::Design;
 use trueaxis_measure::unknowns::fit::FitError;
 use trueaxis_measure::unknowns::fit::fit;
-use trueaxis_measure::unknowns::term::Basis;
-use trueaxis_measure::unknowns::term::Term;
+use trueaxis_measure::unknowns::stated::Stated;
 use trueaxis_part::tolerance::Outcome;
 
 /// Quantile of the normal distribution for 95 %, two-sided.
@@ -398,43 +396,19 @@ impl Fitted {
     /// The standard uncertainty of every residual: noise, and the stated errors of the machine,
     /// each reduced by the part that the fitted set-up absorbs.
     fn spread(&self, machine: &Machine, readings: &Readings) -> Spread {
-        let terms = uncertain(machine, readings);
-        let errors: Vec<ErrorIndex> = terms.iter().map(|t| t.index).collect();
-        let design = Design::new(machine, terms, self.instruments.clone());
-        let (e, n) = (errors.len(), self.covariance.nrows());
-        let width = e + n;
-        let mut rows = vec![0.0; 3 * width];
-        let quantities = machine.uncertain_quantities();
-        let q = quantities.len();
-        let slopes = |row: usize, rows: &mut [f64]| {
-            let channels = design.slopes(readings, row, rows);
-            let u = machine.uncertainties_at(&readings.commands[row], &quantities);
-            let noise = self.instruments[readings.instruments[row] as usize].noise;
-            (channels, u.of_quantities(q, &errors), noise)
-        };
-        // JᵀW S: the effect of each uncertain quantity on the fitted set-up.
-        let mut pull = DMatrix::zeros(n, q);
-        for row in 0..readings.len() {
-            let (channels, u, noise) = slopes(row, &mut rows);
-            for c in 0..channels {
-                let row = &rows[c * width..(c + 1) * width];
-                let s = &u * DVector::from_column_slice(&row[..e]);
-                let j = DVector::from_column_slice(&row[e..]);
-                pull.ger(noise[c].powi(-2), &j, &s, 1.0);
-            }
-        }
-        let taken = &self.covariance * pull;
+        let design = Design::new(machine, Vec::new(), self.instruments.clone());
+        let stated = Stated::of(&design, readings);
+        // The effect of each uncertain quantity on the fitted set-up.
+        let taken = &self.covariance * stated.pull(readings, &[]);
         let mut found = vec![[0.0; 3]; readings.len()];
+        let q = stated.quantities();
         // GᵀG of the shares g = s/u of the quantities, and Σ|g|⁴: Σ ρ² over all pairs of numbers.
         let (mut gram, mut own, mut count) = (DMatrix::<f64>::zeros(q, q), 0.0, 0.0);
         for (row, found) in found.iter_mut().enumerate() {
-            let (channels, u, noise) = slopes(row, &mut rows);
-            for c in 0..channels {
-                let row = &rows[c * width..(c + 1) * width];
-                let s = &u * DVector::from_column_slice(&row[..e]);
-                let j = DVector::from_column_slice(&row[e..]);
-                let fitted = j.dot(&(&self.covariance * &j));
-                let left = s - taken.tr_mul(&j);
+            let noise = self.instruments[readings.instruments[row] as usize].noise;
+            for (c, number) in stated.effects(readings, row).iter().enumerate() {
+                let fitted = number.slopes.dot(&(&self.covariance * &number.slopes));
+                let left = &number.stated - taken.tr_mul(&number.slopes);
                 // What is used up by the fit cannot be more than there is.
                 let noise = (noise[c] * noise[c] - fitted).max(0.0);
                 found[c] = (noise + left.norm_squared()).sqrt();
@@ -457,30 +431,6 @@ struct Spread {
     /// The equivalent share of independent ones.
     independent: f64,
     set_up: Vec<SetUpDeviation>,
-}
-
-/// The errors that are not known exactly at some of these commands, each as one factor.
-fn uncertain(machine: &Machine, readings: &Readings) -> Vec<Term> {
-    let stated = machine.stated_errors().into_iter();
-    let quantities = machine.uncertain_quantities();
-    let has_u = |index: ErrorIndex| {
-        // Tables of u may be 0 at some positions: a sample of rows decides.
-        let step = (readings.len() / 200).max(1);
-        let mut some = readings.commands.iter().step_by(step);
-        some.any(|command| {
-            machine.uncertainties_at(command, &quantities).of_errors().get(index) > 0.0
-        })
-    };
-    stated
-        .filter(|(index, _)| has_u(*index))
-        .map(|(index, error)| Term {
-            error,
-            index,
-            axis: None,
-            basis: Basis::Constant,
-            prior: None,
-        })
-        .collect()
 }
 
 #[cfg(test)]

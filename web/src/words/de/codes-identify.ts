@@ -132,6 +132,7 @@ export const codes: Dictionary = {
   "stages-need-squares": "Stufen nur mit kleinsten Quadraten möglich",
   "targets-too-close": "Zielpositionen zu dicht beieinander",
   "reads-not-stated": "Vorzeichenrichtung der Messwerte nicht angegeben",
+  "rests-on-stated": "Unsicherheit beruht auf einer Angabe der Maschinendatei",
   "length-assumed": "Unsicherheit der Werkzeuglänge nur angenommen",
   "gross-reading": "Grober Ausreißer unter den Messwerten",
   closure: "Wiederholte Position ergibt anderen Messwert",

@@ -132,6 +132,7 @@ export const codes: Dictionary = {
   "stages-need-squares": "分阶段或先验仅支持最小二乘",
   "targets-too-close": "目标位置过近",
   "reads-not-stated": "未说明读数的正负方向",
+  "rests-on-stated": "不确定度主要来自机床文件中的给定值",
   "length-assumed": "刀具长度不确定度为假定值",
   "gross-reading": "读数含粗大误差",
   closure: "复测同一位置读数不符",

@@ -23,7 +23,8 @@ use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_motion::axis_path::{AxisPath, Fault};
 use trueaxis_motion::{Densify, Node, SetUp};
 use trueaxis_nc::moves::{
-    Arc, AxisSet, CompensationSide, Coordinates, Event, FeedMode, Move, MoveKind, Origin, Step,
+    Arc, Axis, AxisSet, CompensationSide, Coordinates, Event, FeedMode, Move, MoveKind, Origin,
+    Step,
 };
 
 const TO_MACHINE_ZERO: &str = "rapid to machine coordinates";
@@ -251,21 +252,27 @@ impl<'w> Walk<'w> {
         lead: Option<Lead>,
     ) -> Result<(), Fault> {
         match why_left(m, way.nodes, words.map(|(words, _)| words)) {
-            Some(why) => self.leave(m, why),
+            Some(why) => self.leave(m, way, words, why),
             None if lead.is_some_and(|lead| lead.axes == AxisSet::default()) => {
-                self.leave(m, NO_CUT_BEGINS)
+                self.leave(m, way, words, NO_CUT_BEGINS)
             }
             None if self.written.turns_on_cone() => Err(cone(m.origin)),
             None => self.rewrite(m, way, words, lead),
         }
     }
 
-    fn leave(&mut self, m: &Move, why: &'static str) -> Result<(), Fault> {
+    fn leave(
+        &mut self,
+        m: &Move,
+        way: &Way<'_>,
+        words: Option<(&Words, Modes)>,
+        why: &'static str,
+    ) -> Result<(), Fault> {
         if !why.is_empty() {
             self.found.leave(why);
             self.approaching = true;
         }
-        self.go_as_written(m);
+        self.go_as_written(m, way.begin, words);
         if m.origin.program == 0 && m.origin.line > 0 && !self.text.keep(m.origin.line) {
             return Err(again(m.origin));
         }
@@ -273,15 +280,25 @@ impl<'w> Walk<'w> {
         Ok(())
     }
 
-    /// The written program makes the same move; axes that the block does not name stand where they
-    /// were written.
-    fn go_as_written(&mut self, m: &Move) {
+    /// The written program makes the same move, which began at this command in the program as it is: axes that the block does
+    /// not name stand where they were written, and increments count from there.
+    fn go_as_written(&mut self, m: &Move, begin: &Command, words: Option<(&Words, Modes)>) {
         let mut same = *m;
         if m.coordinates == Coordinates::Program {
             let now = self.written.words_of(self.written.command(), Coordinates::Program);
-            for axis in trueaxis_nc::moves::Axis::ALL {
+            let was = self.written.words_of(begin, Coordinates::Program);
+            let is_increment = |axis: Axis| match words {
+                Some((words, modes)) => match &words.axes[axis as usize] {
+                    Some(word) => word.increment.unwrap_or(modes.incremental),
+                    None => words.retracts,
+                },
+                None => false,
+            };
+            for axis in Axis::ALL {
                 if !m.named.contains(axis) {
                     same.target[axis] = now[axis];
+                } else if is_increment(axis) {
+                    same.target[axis] += now[axis] - was[axis];
                 }
             }
         }
@@ -371,20 +388,20 @@ impl<'w> Walk<'w> {
         let (mut from, first_want) = (0, self.found.wants.len());
         for (piece, to) in ends.iter().enumerate() {
             let share = samples[*to].u - samples[from].u;
-            let way = (samples[from].command, samples[*to].command);
+            let end = samples[*to].command;
             if kept {
-                self.go_as_written(m);
+                self.go_as_written(m, way.begin, Some((words, modes)));
             } else {
                 let tip = samples[*to].believed.tip;
-                let step = Written { piece, share, command: way.1, tip, held };
+                let step = Written { piece, share, command: end, tip, held };
                 let next = block.write(&self.written, &step, turns_deg)?;
                 self.feed_again = next.feed_again.or(self.feed_again);
                 self.go(&next.m);
                 if lead.is_some() {
-                    self.approaching = self.is_elsewhere(&way.1);
+                    self.approaching = self.is_elsewhere(&end);
                     continue;
                 }
-                self.check_arrival(m, &way.1)?;
+                self.check_arrival(m, &end)?;
                 self.found.undecided += u64::from(self.comes_otherwise(&samples[*to]));
             }
             let stands = samples[from..=*to].iter().map(|s| s.wanted);
@@ -476,7 +493,7 @@ impl<'w> Walk<'w> {
             tip < 1e-10 && axis < 1e-13
         });
         if untouched {
-            self.go_as_written(m);
+            self.go_as_written(m, &samples[0].command, None);
             return Ok(());
         }
         let message =
