@@ -378,10 +378,16 @@ fn ops() -> impl Strategy<Value = Vec<Op>> {
     prop::collection::vec(prop_oneof![change().prop_map(Op::Change), go], 2..14)
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+/// All with TRUEAXIS_LONG (CONTRIBUTING.md), a part of them otherwise.
+fn cases() -> ProptestConfig {
+    let is_long = std::env::var_os("TRUEAXIS_LONG").is_some();
+    ProptestConfig::with_cases(if is_long { 10_000 } else { 3000 })
+}
 
-    /// The same path, over 10^4 programs for each control, in absolute words, in incremental words and with all axes named.
+proptest! {
+    #![proptest_config(cases())]
+
+    /// The same path, over 10^4 programs for each control (3000 without TRUEAXIS_LONG), in absolute words, in incremental words and with all axes named.
     #[test]
     fn law_incremental_is_absolute_fanuc(ops in ops(), table in any::<bool>()) {
         agree(&machine(if table { TABLE } else { HEAD }), Control::Fanuc, &ops)?;
