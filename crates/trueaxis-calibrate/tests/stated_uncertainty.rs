@@ -5,16 +5,17 @@ mod library;
 
 use library::{disk, root};
 use std::path::PathBuf;
+use trueaxis_calibrate::identify::covariance_file::covariance_file;
 use trueaxis_calibrate::identify::errors::{Identification, identify};
 use trueaxis_calibrate::identify::records::{Options, Records};
 use trueaxis_geometry::statistics::SplitMix64;
 use trueaxis_input::Diagnostics;
-use trueaxis_measure::measure::Campaign;
-use trueaxis_measure::measure::read_campaign;
 use trueaxis_measure::measure::virtual_campaign::{Drawn, VirtualCampaign, measure, read_virtual};
+use trueaxis_measure::measure::{Campaign, Readings, read_campaign};
+use trueaxis_measure::unknowns::term::Basis;
 
-/// A campaign of these texts, and the machine that it is made on.
-fn campaign(texts: [(&str, &str); 2]) -> (Campaign, VirtualCampaign) {
+/// The campaign that is the second of these texts, and the machine that it is made on.
+fn campaign<const N: usize>(texts: [(&str, &str); N]) -> (Campaign, VirtualCampaign) {
     let folder = root().join("machines/lei-hsu-mill");
     let path: Vec<PathBuf> = texts.iter().map(|(name, _)| folder.join(name)).collect();
     let files = disk().with_texts(path.iter().cloned().zip(texts.map(|(_, text)| text.to_owned())));
@@ -24,11 +25,14 @@ fn campaign(texts: [(&str, &str); 2]) -> (Campaign, VirtualCampaign) {
 }
 
 fn found(campaign: &Campaign, real: &VirtualCampaign) -> Identification {
-    let records = Records::bare(measure(campaign, real).expect("readings").readings);
+    found_from(campaign, measure(campaign, real).expect("readings").readings)
+}
+
+fn found_from(campaign: &Campaign, readings: Readings) -> Identification {
     let options =
         Options { selection: false, predicts: false, scores: false, ..Options::default() };
     let mut problems = Diagnostics::new();
-    let found = identify(campaign, &options, &records, &mut problems);
+    let found = identify(campaign, &options, &Records::bare(readings), &mut problems);
     found.unwrap_or_else(|| panic!("{problems:?}"))
 }
 
@@ -145,6 +149,44 @@ fn law_u_covers_stated_errors_that_are_no_unknowns() {
     assert!(means.iter().all(|mean| (0.45..1.35).contains(mean)), "{means:?}");
 }
 
+/// An error that is stated as ± 5 µrad, and of which readings show only a part together with others, keeps what is not shown.
+#[test]
+fn law_a_predictor_keeps_what_is_stated_of_errors_that_it_adds_to() {
+    let mill = uncertain_mill();
+    let (campaign, mut real) = campaign([("mill.toml", &mill), ("cones.toml", CONES)]);
+    let quantities = campaign.machine.uncertain_quantities();
+    let known = campaign.machine.uncertainties_at(&[0.0; 6], &quantities);
+    let nominal = campaign.machine.errors_at(&[0.0; 6], &[0.0; 6]).expect("no tables");
+    let mut random = SplitMix64::new(32);
+    let (mut sum, mut count) = (0.0, 0);
+    for seed in 0..30 {
+        real.truth.seed = seed;
+        let drawn = Drawn::new(&campaign.machine, || normal(&mut random));
+        let due = known.displaced(&nominal, &drawn.factors);
+        real.truth.factors = Some(drawn);
+        let records = Records::bare(measure(&campaign, &real).expect("readings").readings);
+        let options =
+            Options { selection: false, predicts: true, scores: false, ..Options::default() };
+        let found =
+            identify(&campaign, &options, &records, &mut Diagnostics::new()).expect("errors");
+        let predictor = found.adequacy.predictor.expect("a prediction");
+        let listed = found.design.terms.len();
+        for (k, term) in predictor.design.terms.iter().enumerate().skip(listed) {
+            let variance = predictor.covariance[(k, k)];
+            if term.basis == Basis::Constant
+                && variance > 0.0
+                && known.of_errors().get(term.index) > 0.0
+            {
+                let off = nominal.get(term.index) + predictor.values[k] - due.get(term.index);
+                sum += off * off / variance;
+                count += 1;
+            }
+        }
+    }
+    let mean = sum / f64::from(count);
+    assert!(count > 60 && (0.1..2.0).contains(&mean), "{mean} of {count}");
+}
+
 #[test]
 fn what_u_rests_on_is_named() {
     let (campaign, real) = campaign([("hall.toml", HALL), ("laser.toml", LASER)]);
@@ -157,4 +199,52 @@ fn what_u_rests_on_is_named() {
         note.message.contains("U of EXX P1 is mostly that of expansion of scale X"),
         "{note:?}"
     );
+}
+
+/// A coefficient is the same in each of several campaigns: what they hand on does not average it away.
+#[test]
+fn law_a_chain_of_campaigns_knows_what_all_readings_at_once_show() {
+    let hall = HALL.replace("10 ± 0.5", "10 ± 0.02");
+    let (first, mut real) = campaign([("hall.toml", &hall), ("laser.toml", LASER)]);
+    let mut all = Readings::default();
+    let mut left = String::new();
+    let again = format!("prior = \"left.toml\"\n{LASER}");
+    let mut last = None;
+    for seed in 0..4 {
+        real.truth.seed = seed;
+        let readings = measure(&first, &real).expect("readings").readings;
+        (0..readings.len()).for_each(|i| all.push(readings.row(i)));
+        let text = if seed == 0 { LASER } else { &again };
+        let texts =
+            [("hall.toml", hall.as_str()), ("laser.toml", text), ("left.toml", left.as_str())];
+        let (campaign, _) = campaign(texts);
+        let found = found_from(&campaign, readings.clone());
+        left = covariance_file(&campaign, &found, &Records::bare(readings), None);
+        last = Some(found);
+    }
+    let (chain, at_once) = (last.expect("campaigns"), found_from(&first, all));
+    for (a, b) in chain.found.iter().zip(&at_once.found) {
+        let ((x, u), (y, v)) = (a.value.expect("a value"), b.value.expect("a value"));
+        // What one campaign leaves by chance stays in what it hands on.
+        assert!((u / v - 1.0).abs() < 0.02, "{}: {u}, not {v}", a.name);
+        assert!((x - y).abs() < 0.5 * v, "{}: {x}, not {y}", a.name);
+    }
+    // 10 K · 0.02 µm/(m K) · 0.5 m; a fourth part of the variance of one campaign is that of its noise.
+    let u = chain.found[0].value.expect("EXX").1;
+    assert!(u > 1e-4 && u < 1.1e-4, "{u}\n{left}");
+}
+
+/// Every second of many rows at the fixed point of the scale, where its expansion moves nothing: u of the others counts all the same.
+#[test]
+fn law_u_counts_every_row_however_they_alternate() {
+    let (campaign, real) = campaign([("hall.toml", HALL), ("laser.toml", LASER)]);
+    let readings = measure(&campaign, &real).expect("readings").readings;
+    let at_zero = (0..readings.len()).find(|i| readings.commands[*i][0] == 0.0).expect("a target");
+    let mut alternate = Readings::default();
+    for i in (0..6).flat_map(|_| 0..readings.len()) {
+        alternate.push(readings.row(at_zero));
+        alternate.push(readings.row(i));
+    }
+    let u = found_from(&campaign, alternate).found[0].value.expect("EXX").1;
+    assert!((u / 2.5e-3 - 1.0).abs() < 0.01, "{u}");
 }

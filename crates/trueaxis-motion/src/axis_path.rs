@@ -25,7 +25,7 @@ use super::densify::Densify;
 use super::densify::MOST_PIECES;
 use super::setup::SetUp;
 use super::timing::Element;
-use fault::{fault, no_farther_than_a_hall, too_many_pieces};
+use fault::{fault, no_farther_than_a_hall, not_finite, too_many_pieces};
 use std::sync::Arc;
 use trueaxis_geometry::frame::{Direction, Workpiece, inverse3};
 use trueaxis_geometry::{Mat3, Vec3};
@@ -317,6 +317,10 @@ impl<'m> AxisPath<'m> {
         if self.dynamic_mm.is_some() {
             self.count_from_origin_at(&self.other_axes(m));
         }
+        let straight = matches!(m.kind, MoveKind::Rapid | MoveKind::Linear);
+        if self.is_only_tilted() && straight && self.turns(m) {
+            return self.turn_on_plane(m, feed, out);
+        }
         let (from, to) = (self.place(), self.target(m));
         let curve = match &m.kind {
             MoveKind::Arc(arc) => Curve::arc(from, to, arc),
@@ -383,6 +387,12 @@ impl<'m> AxisPath<'m> {
         end
     }
 
+    /// Whether rotary axes are named.
+    fn turns(&self, m: &Move) -> bool {
+        let is_turned = |axis: &Axis| axis.is_rotary() && m.named.contains(*axis);
+        Axis::ALL.iter().any(is_turned) && m.direction.is_none()
+    }
+
     /// The angle that a rotary axis goes to.
     fn turned(&self, axis: usize, target: f64, direction: RotaryDirection) -> f64 {
         let (now, turn) = (self.command[axis], std::f64::consts::TAU);
@@ -447,8 +457,7 @@ impl<'m> AxisPath<'m> {
             no_farther_than_a_hall(m, curve.span_mm() * self.scale(curve))?;
             return self.bounded(m, count);
         }
-        let message = "the target of the move is not finite".to_owned();
-        Err(fault(m, None, "not-finite", message, "check offsets, scale and coordinates"))
+        Err(not_finite(m))
     }
 
     fn bounded(&self, m: &Move, count: f64) -> Result<u32, Fault> {

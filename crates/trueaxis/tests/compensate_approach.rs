@@ -281,6 +281,33 @@ fn law_each_cut_begins_where_it_should_whichever_axes_are_named() {
     }
 }
 
+/// Words to reference points and machine zero are places under G91, too; under SUPA they count from where the tool stands.
+#[test]
+fn law_a_cut_begins_where_it_should_after_reference_points_in_increments() {
+    let head = "G21 G17 G90 G94\nG0 X20. Y-30. Z60.\nG1 Z52. F300\nG0 Z60.\n";
+    let end = "G1 Z45. F500\nX12.\nM30\n";
+    for (name, control, between) in [
+        ("i5-engraver", Control::Fanuc, "G91 G28 A0 C0\nG90 G0 X10. Y-10.\nZ50.\n"),
+        ("i5-engraver", Control::Fanuc, "G91 G28 Z0.\nG28 A0 C0\nG90 G0 X10. Y-10.\nZ50.\n"),
+        ("i5-engraver", Control::Haas, "G91 G53 G0 A0 C0\nG90 G0 X10. Y-10.\nZ50.\n"),
+        ("i5-engraver", Control::LinuxCnc, "G91\nG53 G0 A0 C0\nG90 G0 X5.\nZ50.\n"),
+        ("i5-engraver", Control::Fanuc, "G91 G28 Z0.\nG91 G0 Z-30.\nX5.\nZ-10.\nG90\n"),
+        ("three-axis-mill", Control::Fanuc, "G91 G28 Z0.\nG91 G0 Z-30.\nX5.\nZ-10.\nG90\n"),
+        ("i5-engraver", Control::Sinumerik840d, "G91 G0 SUPA X1\nG0 X5\nZ-5\nG90\n"),
+        ("i5-engraver", Control::Sinumerik840d, "G91\nG53 G0 A0 C0\nG0 X5\nZ-5\nG90\n"),
+    ] {
+        let (mut head, mut end) = (head.to_owned(), end.to_owned());
+        if name == "three-axis-mill" {
+            head = head.replace("Z60.", "Z-60.").replace("Z52.", "Z-62.").replace("Y-30.", "Y30.");
+            end = end.replace("Z45.", "Z-45.");
+        }
+        if control == Control::Sinumerik840d {
+            (head, end) = (head.replace("G21", "G710"), end.replace("G21", "G710"));
+        }
+        begins(name, control, &format!("{head}{between}{end}"));
+    }
+}
+
 /// Where no word leads to the begin of a cut that could be corrected, the cut is listed, since its way is not part of the proof;
 /// where the tool stands right there, it is not, and its way is.
 #[test]

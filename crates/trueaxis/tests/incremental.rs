@@ -233,14 +233,21 @@ enum Notation {
     Incremental,
 }
 
-/// The lines of the program and the numbers of those with moves; `from` are the places in the program
-/// frame before each.
-fn written(
-    control: Control,
-    ops: &[Op],
-    notation: Notation,
-    from: &[[f64; 5]],
-) -> (String, Vec<u32>) {
+/// A move in the first writing of a program.
+#[derive(Clone, Copy, Default)]
+struct Begin {
+    /// The place in the program frame before it.
+    place: [f64; 5],
+    /// A plane is swivelled and the tip not followed: rotary words turn the axes alone, and are not written with others.
+    turns_alone: bool,
+}
+
+/// X, Y, Z and A, C as bits.
+const LINEAR: u8 = 0b111;
+const ROTARY: u8 = 0b1_1000;
+
+/// The lines of the program and the numbers of those with moves.
+fn written(control: Control, ops: &[Op], notation: Notation, from: &[Begin]) -> (String, Vec<u32>) {
     let klartext = control == Control::Heidenhain;
     let mut text = String::new();
     let (mut line, mut moves) = (1, Vec::new());
@@ -264,14 +271,19 @@ fn written(
             }
             Op::Move(to, named) => {
                 // While the work offset goes round, the rotary axes are not to turn: X, Y and Z alone, at least X.
-                let named =
-                    if dynamic { named & 0b111 | u8::from(named & 0b111 == 0) } else { *named };
-                let start = from.get(moves.len()).copied().unwrap_or_default();
+                let mut named =
+                    if dynamic { named & LINEAR | u8::from(named & LINEAR == 0) } else { *named };
+                let Begin { place: start, turns_alone } =
+                    from.get(moves.len()).copied().unwrap_or_default();
+                if turns_alone && named & LINEAR != 0 {
+                    named &= LINEAR;
+                }
+                let all = if turns_alone && named & LINEAR == 0 { ROTARY } else { 0b1_1111 };
                 let mut words = String::new();
                 let incremental = notation == Notation::Incremental;
                 for (i, letter) in LETTERS.into_iter().enumerate() {
                     let is_named = named >> i & 1 == 1;
-                    if !is_named && notation != Notation::All {
+                    if !is_named && (notation != Notation::All || all >> i & 1 == 0) {
                         continue;
                     }
                     let goal = if is_named { to[i] } else { start[i] };
@@ -342,8 +354,17 @@ fn worst(a: (&Lines, &[u32]), b: (&Lines, &[u32])) -> f64 {
 fn agree(machine: &Machine, control: Control, ops: &[Op]) -> Result<(), TestCaseError> {
     let setup = setup();
     let (text, moves) = written(control, ops, Notation::Some, &[]);
+    let alone = run(machine, &setup, control, &text);
+    let begin = |line: &u32| Begin {
+        turns_alone: alone.moves[line].follows_tip == [false, true],
+        ..Begin::default()
+    };
+    let mut from: Vec<Begin> = moves.iter().map(begin).collect();
+    let (text, moves) = written(control, ops, Notation::Some, &from);
     let first = run(machine, &setup, control, &text);
-    let from: Vec<_> = moves.iter().map(|line| place_before(machine, &first, *line)).collect();
+    for (begin, line) in from.iter_mut().zip(&moves) {
+        begin.place = place_before(machine, &first, *line);
+    }
     for notation in [Notation::All, Notation::Incremental] {
         let (twin, twin_moves) = written(control, ops, notation, &from);
         let second = run(machine, &setup, control, &twin);

@@ -92,4 +92,36 @@ proptest! {
         prop_assert!((x.2 - z.2).y.abs() < 1e-6);
         prop_assert!((off.2 - x.2 - Vec3::new(0.0, 0.0, 10.0)).norm() < 1e-6);
     }
+
+    /// On a swivelled plane without tool-centre point rotary words turn the rotary axes alone: the linear axes stand. What comes
+    /// after counts in the plane as it lies then: words are places, increments count from where the tool stands.
+    #[test]
+    fn law_rotary_axes_turn_alone_on_a_swivelled_plane(a in 5.0..60.0_f64, c in -90.0..90.0_f64, table in any::<bool>()) {
+        let machine = Machine::check("m", if table { TABLE } else { HEAD }, &NoTables).0.unwrap();
+        let programs = [
+            (Control::Heidenhain, format!(
+                "BEGIN PGM p MM\nL X+7 Y-60 Z+50 FMAX\nPLANE SPATIAL SPA+20 SPB+10 SPC+45 STAY\nL A{a:+.4} C{c:+.4} R0 FMAX\nL IX+10 FMAX\n\
+                 L X+1 Y+2 Z+3 FMAX\nL A+0 FMAX\nL IX+10 FMAX\nEND PGM p MM\n")),
+            (Control::Fanuc, format!(
+                "G90 G21\nG0 X7. Y-60. Z50.\nG68.2 X0 Y0 Z0 I45. J20. K10.\nG0 A{a:.4} C{c:.4}\nG91 X10.\n\
+                 G90 X1. Y2. Z3.\nA0.\nG91 X10.\nM30\n")),
+            (Control::Sinumerik840d, format!(
+                "G90 G710\nG0 X7 Y-60 Z50\nCYCLE800(0,\"\",0,57,0,0,0,20,10,45,0,0,0,0)\nG0 A{a:.4} C{c:.4}\nG91 X10\n\
+                 G90 X1 Y2 Z3\nA0\nG91 X10\nM30\n")),
+        ];
+        for (control, text) in programs {
+            let ends = Ends::of(&machine, control, &text);
+            let linear = |line: u32| ['X', 'Y', 'Z'].map(|letter| ends.at(line).1[axis(&machine, letter)]);
+            let apart = |a: [f64; 3], b: [f64; 3]| (0..3).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max);
+            prop_assert!(apart(linear(4), linear(2)) < 1e-9, "{text}{:?}", ends.0);
+            prop_assert!((ends.at(4).1[axis(&machine, 'A')].to_degrees() - a).abs() < 1e-3);
+            prop_assert!(apart(linear(7), linear(6)) < 1e-9, "{text}{:?}", ends.0);
+            // One axis of the plane moves, by its increment.
+            for (line, before) in [(5, 4), (8, 7)] {
+                let by = ends.at(line).2 - ends.at(before).2;
+                prop_assert!((by.norm() - 10.0).abs() < 1e-6, "{text}{:?}", ends.0);
+            }
+            prop_assert!((ends.at(8).2 - ends.at(7).2 - (ends.at(5).2 - ends.at(4).2)).norm() < 1e-6);
+        }
+    }
 }

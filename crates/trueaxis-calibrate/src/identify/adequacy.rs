@@ -279,12 +279,15 @@ impl Explained {
             }
         }
         larger(&mut self.listed.covariance, &other.listed.covariance);
-        larger(&mut self.listed.seen, &other.listed.seen);
+        let times = larger(&mut self.listed.seen, &other.listed.seen);
+        for (_, moves) in &mut self.stated {
+            moves.iter_mut().zip(&times).for_each(|(by, times)| *by *= times);
+        }
     }
 }
 
-/// A covariance with the larger variance of two, unknown by unknown; the correlations stay.
-fn larger(own: &mut DMatrix<f64>, other: &DMatrix<f64>) {
+/// A covariance with the larger variance of two, unknown by unknown; the correlations stay. How many times each is larger.
+fn larger(own: &mut DMatrix<f64>, other: &DMatrix<f64>) -> Vec<f64> {
     let n = own.nrows();
     let times = |k: usize| match own[(k, k)] {
         v if v > 0.0 => (other[(k, k)] / v).sqrt().max(1.0),
@@ -292,6 +295,7 @@ fn larger(own: &mut DMatrix<f64>, other: &DMatrix<f64>) {
     };
     let times: Vec<f64> = (0..n).map(times).collect();
     own.iter_mut().enumerate().for_each(|(i, v)| *v *= times[i % n] * times[i / n]);
+    times
 }
 
 /// The listed unknowns with all others, and readings that are linear about the fit of the listed ones.

@@ -15,8 +15,9 @@ const MOST_NAMED: usize = 10;
 const NOT_FOUND: f64 = 0.5;
 /// An error that follows a length by this correlation rests on it. Unit: 1.
 const RESTS_ON: f64 = 0.5;
-/// More than this share of a standard uncertainty is most of its square. Unit: 1.
-const MOSTLY: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// More than this share of a variance is most of it; less than the other is not named. Unit: 1.
+const MOSTLY: f64 = 0.5;
+const NAMED: f64 = 0.1;
 /// Readings that are predicted by less than this share of the residual of their own fit contain the answer.
 const TOO_GOOD: f64 = 0.7;
 /// Farther from the ball than this it is not a matter of decimals, mm.
@@ -158,24 +159,33 @@ fn tell_lengths(found: &Identification, campaign: &Place, problems: &mut Diagnos
     }
 }
 
-/// Errors whose uncertainty is mostly that of something that the machine file states.
+/// Errors whose uncertainty is mostly that of what the machine file states.
 fn tell_stated(found: &Identification, campaign: &Place, problems: &mut Diagnostics) {
-    for (quantity, moves) in &found.adequacy.explained.stated {
-        let rests = |i: &usize| {
-            let u = found.found[*i].value.map_or(f64::INFINITY, |(_, u)| u);
-            moves[*i].abs() > MOSTLY * u
-        };
-        let terms = (0..found.design.terms.len()).filter(rests);
-        let names: Vec<&str> = terms.map(|i| found.found[i].name.as_str()).collect();
-        if !names.is_empty() {
-            let message = format!(
-                "U of {} is mostly that of {quantity}, which the machine file states: no further reading makes it smaller",
-                names.join(", ")
-            );
-            let hint = "state it better, list it among the unknowns, or measure at the temperature of the error table";
-            problems.note("rests-on-stated", campaign.clone(), message, hint);
-        }
+    let stated = &found.adequacy.explained.stated;
+    let share = |i: usize, moves: &[f64]| {
+        found.found[i].value.map_or(0.0, |(_, u)| (moves[i] / u.max(1e-300)).powi(2))
+    };
+    let rests = |i: &usize| stated.iter().map(|(_, moves)| share(*i, moves)).sum::<f64>() > MOSTLY;
+    let terms: Vec<usize> = (0..found.design.terms.len()).filter(rests).collect();
+    if terms.is_empty() {
+        return;
     }
+    let matters = |moves: &[f64]| terms.iter().any(|i| share(*i, moves) > NAMED);
+    let of: Vec<&str> =
+        stated.iter().filter(|(_, m)| matters(m)).map(|(name, _)| name.as_str()).collect();
+    let names: Vec<&str> = terms.iter().map(|i| found.found[*i].name.as_str()).collect();
+    let message = format!(
+        "U of {} is mostly that of {}, which the machine file states: no further reading makes it smaller",
+        names.join(", "),
+        of.join(", ")
+    );
+    let hint = match of.iter().any(|name| name.starts_with("expansion")) {
+        true => {
+            "measure at the temperature of the error table, or find the coefficient: trueaxis identify expansion"
+        }
+        false => "state it better, or list it among the unknowns",
+    };
+    problems.note("rests-on-stated", campaign.clone(), message, hint);
 }
 
 /// Rows that do not belong to the others, and whether they would the other way round.

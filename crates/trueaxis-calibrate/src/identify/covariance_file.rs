@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!     g = F x̂,  V = b² F Λ⁺ Fᵀ     rows of F: unknowns that are seen alone, then combinations   docs/model.md eq. 206
-//!     and F M Mᵀ Fᵀ for what the machine file states with an uncertainty                        eq. 346
+//!     with F M Mᵀ Fᵀ for what the machine file states with an uncertainty, and F M alone        eq. 346
 //! ```
 
 use super::errors::Identification;
@@ -14,7 +14,6 @@ use trueaxis_measure::instruments::instrument::SetupError;
 use trueaxis_measure::measure::Campaign;
 use trueaxis_measure::measure::prior::{nominal_mark, set_up};
 use trueaxis_measure::unknowns::design::Unknown;
-use trueaxis_measure::unknowns::stated::Stated;
 
 /// A share of a combination that is rounding, against its greatest.
 const NOTHING: f64 = 1e-7;
@@ -32,11 +31,10 @@ pub fn covariance_file(
     let mut text = head(campaign, records, (&found.design.instruments, date));
     let rows = lasting(found, rows(found));
     let values = &rows * DVector::from_column_slice(&found.fit.values);
-    let stated = Stated::of(&found.design, &records.readings);
-    let sight = &found.fit.sight;
-    let moved = stated.moved((&found.design, sight), &records.readings, &found.weights);
-    let covariance = &found.fit.covariance + &moved * moved.transpose();
-    let covariance = &rows * covariance * rows.transpose();
+    let covariance = &rows * &found.fit.covariance * rows.transpose();
+    let stated = &found.adequacy.explained.stated;
+    let moves: Vec<(&String, DVector<f64>)> =
+        stated.iter().map(|(name, by)| (name, &rows * DVector::from_column_slice(by))).collect();
     let names = found.design.names();
     for (i, row) in rows.row_iter().enumerate() {
         let members = row.iter().zip(&names).filter(|(share, _)| **share != 0.0);
@@ -51,6 +49,11 @@ pub fn covariance_file(
             covariance[(i, i)].max(0.0).sqrt(),
             variances.join(", ")
         );
+        let by = moves.iter().filter(|(_, by)| by[i] != 0.0);
+        let by: Vec<String> = by.map(|(name, by)| format!("{name:?} = {:e}", by[i])).collect();
+        if !by.is_empty() {
+            let _ = writeln!(text, "stated = {{ {} }}", by.join(", "));
+        }
     }
     text
 }

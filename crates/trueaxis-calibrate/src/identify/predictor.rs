@@ -66,6 +66,7 @@ pub(super) fn predictor(
     let stated = Stated::of(&all.all, task.readings);
     let gain = all.covariance(sums, first)? / first.noise.powi(2);
     let moved = gain * stated.pull(task.readings, task.weights);
+    let moved = stated.off_together(moved, task.readings);
     covariance += &moved * moved.transpose();
     let in_sample = rms(all, task, |_| &values);
     let mut splits = Vec::new();

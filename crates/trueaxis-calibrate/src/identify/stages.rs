@@ -226,7 +226,8 @@ fn measured(
     let numbers = sums.numbers + calibrated.numbers;
     let names = plain.names();
     let Sums { normal, gradient, square, .. } = sums;
-    own.add(&Known { names, normal, gradient, square }, birge.powi(-2));
+    let read = Known { normal, gradient, square, ..Known::nothing(names) };
+    own.add(&read, birge.powi(-2));
     Ok((own, touched, numbers, birge))
 }
 

@@ -14,17 +14,23 @@ pub struct KnownRow {
     pub value: f64,
     /// Its covariance with each row before it, its own variance last. Unit: that of the two values, multiplied.
     pub covariance: Vec<f64>,
+    /// What of it is that of something that a machine file states with an uncertainty: its name, and how one standard uncertainty
+    /// moves the value. Unit: that of the value.
+    pub stated: Vec<(String, f64)>,
 }
 
 impl KnownRow {
     /// Reads the row that has so many before it.
     pub fn read(section: &Section<'_>, before: usize) -> Option<Self> {
-        let of = section.require("of", "{ EX0C = 1.0 }").and_then(|i| {
-            i.section("known.of", |s| {
+        let numbers = |item: Item<'_>, name| {
+            item.section(name, |s| {
                 let entries = s.entries().into_iter();
                 entries.map(|(key, _, item)| Some((key.to_owned(), item.number()?))).collect()
             })?
-        });
+        };
+        let of = section.require("of", "{ EX0C = 1.0 }").and_then(|i| numbers(i, "known.of"));
+        let stated: Vec<(String, f64)> =
+            section.get("stated").map_or(Some(Vec::new()), |i| numbers(i, "known.stated"))?;
         let number =
             |key| section.require(key, "in mm, rad, s or 1").and_then(|i: Item<'_>| i.number());
         let (value, u) = (number("value"), number("u"));
@@ -54,6 +60,6 @@ impl KnownRow {
             );
             return None;
         }
-        Some(Self { of, value, covariance })
+        Some(Self { of, value, covariance, stated })
     }
 }

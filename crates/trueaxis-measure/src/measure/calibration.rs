@@ -98,7 +98,7 @@ pub fn add_centre(
         let (a, b) = (own[i].1, own[j].1);
         inverse[(a, b)] * u_point * u_point + if a == b { seat } else { 0.0 }
     });
-    if let Some(centre) = Known::of_rows(names, &rows, &values, &covariance) {
+    if let Some(centre) = Known::of_rows(names, &rows, &values, &covariance, &[]) {
         known.add(&centre, 1.0);
     }
 }

@@ -10,6 +10,7 @@
 //! value = 0.012                   # mm, rad, s or 1
 //! u = 0.0004
 //! covariance = [1.6e-7]           # with all before it, and its own variance
+//! stated = { "expansion of scale X" = 3e-4 }   # how one standard uncertainty of what the machine file states moves it
 //! ```
 
 use crate::instruments::Instrument;
@@ -217,10 +218,29 @@ fn known(root: &Section<'_>, rows: &[(KnownRow, Place)], design: &Design) -> Opt
         rows[high].0.covariance[low]
     });
     let values = DVector::from_fn(m, |i, _| rows[kept[i]].0.value);
-    let known = Known::of_rows(names, &factors, &values, &covariance);
+    let moves = moves(rows, &kept);
+    // What is stated is the same in the next campaign: it is no part of what is independent.
+    let own = moves.iter().fold(covariance.clone(), |c, (_, m)| c - m * m.transpose());
+    let known = Known::of_rows(names.clone(), &factors, &values, &own, &moves);
+    let known = known.or_else(|| Known::of_rows(names, &factors, &values, &covariance, &[]));
     if known.is_none() {
         let message = "this is no covariance: a correlation is 1 or more".to_owned();
         root.error("bad-covariance", message, "take the file as `identify -o` wrote it");
     }
     known
+}
+
+/// How one standard uncertainty of each thing that a machine file states moves the rows that are kept.
+fn moves(rows: &[(KnownRow, Place)], kept: &[usize]) -> Vec<(String, DVector<f64>)> {
+    let mut moves: Vec<(String, DVector<f64>)> = Vec::new();
+    for (i, k) in kept.iter().enumerate() {
+        for (name, by) in &rows[*k].0.stated {
+            let at = moves.iter().position(|(own, _)| own == name).unwrap_or_else(|| {
+                moves.push((name.clone(), DVector::zeros(kept.len())));
+                moves.len() - 1
+            });
+            moves[at].1[i] = *by;
+        }
+    }
+    moves
 }

@@ -20,22 +20,27 @@ pub struct Known {
     pub gradient: DVector<f64>,
     /// gᵀ C⁻¹ g. Unit: 1.
     pub square: f64,
+    /// Fᵀ C⁻¹ m of what a machine file states with an uncertainty: its name, and how one standard uncertainty moves η. C is without
+    /// it (docs/model.md eq. 346).
+    pub stated: Vec<(String, DVector<f64>)>,
 }
 
 impl Known {
     /// Nothing is known of these unknowns.
     pub fn nothing(names: Vec<String>) -> Self {
         let n = names.len();
-        Self { names, normal: DMatrix::zeros(n, n), gradient: DVector::zeros(n), square: 0.0 }
+        let (normal, gradient) = (DMatrix::zeros(n, n), DVector::zeros(n));
+        Self { names, normal, gradient, square: 0.0, stated: Vec::new() }
     }
 
-    /// From values of combinations (one row of F each) with their covariance; `None` if that is none:
-    /// it must be symmetric and positive definite.
+    /// From values of combinations (one row of F each) with their covariance, and how one standard uncertainty of what a machine
+    /// file states moves them; `None` if that is no covariance: it must be symmetric and positive definite.
     pub fn of_rows(
         names: Vec<String>,
         rows: &DMatrix<f64>,
         values: &DVector<f64>,
         covariance: &DMatrix<f64>,
+        moves: &[(String, DVector<f64>)],
     ) -> Option<Self> {
         let scale = covariance.diagonal().map(|c| if c > 0.0 { c.sqrt() } else { f64::NAN });
         if scale.iter().any(|s| !s.is_finite()) || !rows.iter().all(|v| v.is_finite()) {
@@ -49,7 +54,9 @@ impl Known {
         let in_u = DMatrix::from_fn(m, rows.ncols(), |i, j| rows[(i, j)] / scale[i]);
         let g = values.component_div(&scale);
         let weighted = half.solve(&in_u);
+        let pull = |m: &DVector<f64>| weighted.transpose() * m.component_div(&scale);
         Some(Self {
+            stated: moves.iter().map(|(name, m)| (name.clone(), pull(m))).collect(),
             normal: in_u.transpose() * &weighted,
             gradient: weighted.transpose() * &g,
             square: g.dot(&half.solve(&g)),
@@ -70,6 +77,12 @@ impl Known {
         self.normal += other.normal * times;
         self.gradient += other.gradient * times;
         self.square += times * other.square;
+        for (name, pull) in other.stated {
+            match self.stated.iter_mut().find(|(own, _)| *own == name) {
+                Some((_, own)) => *own += pull * times,
+                None => self.stated.push((name, pull * times)),
+            }
+        }
     }
 
     /// The same for a list of unknowns: nothing is known of those that are new.
@@ -81,10 +94,13 @@ impl Known {
             names.iter().map(|n| self.names.iter().position(|own| own == n)).collect();
         let n = names.len();
         let both = |i: usize, j: usize| Some(self.normal[(of[i]?, of[j]?)]);
+        let on_names = |v: &DVector<f64>| DVector::from_fn(n, |i, _| of[i].map_or(0.0, |k| v[k]));
+        let stated = self.stated.iter().map(|(name, pull)| (name.clone(), on_names(pull)));
         Self {
             names: names.to_vec(),
+            stated: stated.collect(),
             normal: DMatrix::from_fn(n, n, |i, j| both(i, j).unwrap_or(0.0)),
-            gradient: DVector::from_fn(n, |i, _| of[i].map_or(0.0, |k| self.gradient[k])),
+            gradient: on_names(&self.gradient),
             square: self.square,
         }
     }
@@ -106,7 +122,7 @@ mod tests {
         let names = vec!["a".to_owned(), "b".to_owned()];
         let covariance = DMatrix::from_row_slice(2, 2, &[1.0, 0.5, 0.5, 1.0]);
         let g = DVector::from_vec(vec![1.0, 0.0]);
-        let known = Known::of_rows(names, &DMatrix::identity(2, 2), &g, &covariance);
+        let known = Known::of_rows(names, &DMatrix::identity(2, 2), &g, &covariance, &[]);
         let known = known.expect("a covariance");
         assert!((known.normal[(0, 1)] + 2.0 / 3.0).abs() < 1e-15);
         assert!((known.square - 4.0 / 3.0).abs() < 1e-15 && known.error(&g) < 1e-12);
@@ -114,7 +130,7 @@ mod tests {
         assert!((turned.normal[(2, 0)] + 2.0 / 3.0).abs() < 1e-15 && turned.normal[(1, 1)] == 0.0);
         let impossible = DMatrix::from_row_slice(2, 2, &[1.0, 2.0, 2.0, 1.0]);
         let none =
-            Known::of_rows(vec![String::new(); 2], &DMatrix::identity(2, 2), &g, &impossible);
+            Known::of_rows(vec![String::new(); 2], &DMatrix::identity(2, 2), &g, &impossible, &[]);
         assert!(none.is_none());
     }
 }

@@ -11,16 +11,17 @@
 use super::design::Design;
 use super::determined::Determined;
 use super::fit::Observability;
+use super::known::Known;
 use super::term::{Basis, Term};
 use crate::instruments::Readings;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::Command;
 use trueaxis_machine::errors::{ErrorIndex, ErrorName, ErrorValues, Uncertainties};
 
 /// Rows that one thread takes at a time: fixed, so that sums do not depend on the machine.
 const CHUNK: usize = 512;
-/// Tables of u may be 0 at some positions: so many rows decide which errors are uncertain.
-const SAMPLE: usize = 200;
 
 /// What is stated with an uncertainty in the machine of a design.
 #[derive(Debug, Clone)]
@@ -32,7 +33,9 @@ pub struct Stated {
     /// Where the constants begin.
     first: usize,
     errors: Vec<ErrorIndex>,
+    /// Those of the machine, then those of what was known before.
     quantities: Vec<String>,
+    known: Option<Known>,
 }
 
 /// One number of a reading.
@@ -49,19 +52,15 @@ impl Stated {
     pub fn of(design: &Design, readings: &Readings) -> Self {
         let machine = &design.machine;
         let mut quantities = machine.uncertain_quantities();
-        let mut errors: Vec<ErrorIndex> = Vec::new();
-        if !quantities.is_empty() {
-            for command in readings.commands.iter().step_by((readings.len() / SAMPLE).max(1)) {
-                let known = machine.uncertainties_at(command, &quantities);
-                for index in known.errors_moved() {
-                    if !errors.contains(&index) {
-                        errors.push(index);
-                    }
-                }
-            }
-        }
+        let errors = errors_moved(machine, &quantities, readings);
         if errors.is_empty() && !design.instruments.iter().any(|i| i.kind.reads_the_workpiece()) {
             quantities.clear();
+        }
+        let known = design.known().filter(|known| !known.stated.is_empty()).cloned();
+        for (name, _) in known.iter().flat_map(|known| &known.stated) {
+            if !quantities.contains(name) {
+                quantities.push(name.clone());
+            }
         }
         let constant = |index: &ErrorIndex| Term {
             error: ErrorName {
@@ -77,7 +76,7 @@ impl Stated {
         let further: Vec<Term> = errors.iter().map(constant).collect();
         let (first, count) = (design.terms.len(), further.len());
         let own = (0..design.unknowns()).map(|k| if k < first { k } else { k + count }).collect();
-        Self { all: design.with_more(&further), own, first, errors, quantities }
+        Self { all: design.with_more(&further), own, first, errors, quantities, known }
     }
 
     /// The names of the quantities; none if none of them changes a reading.
@@ -150,7 +149,33 @@ impl Stated {
             pull
         };
         let parts: Vec<DMatrix<f64>> = rows.par_chunks(CHUNK).map(of_chunk).collect();
-        parts.into_iter().fold(zeros(), |sum, part| sum + part)
+        let mut pull = parts.into_iter().fold(zeros(), |sum, part| sum + part);
+        for (name, by) in self.known.iter().flat_map(|known| &known.stated) {
+            if let Some(k) = self.quantities.iter().position(|own| own == name) {
+                let mut column = pull.column_mut(k);
+                column += by;
+            }
+        }
+        pull
+    }
+
+    /// M less what each quantity adds to the error itself: how far an error that comes in addition to what is stated of it is off
+    /// together with that, for constants.
+    pub fn off_together(&self, mut moved: DMatrix<f64>, readings: &Readings) -> DMatrix<f64> {
+        let Some(command) = readings.commands.first() else { return moved };
+        let machine = self.all.machine.without_heat();
+        let quantities = machine.uncertain_quantities();
+        let known = machine.uncertainties_at(command, &quantities);
+        let terms = self.all.terms[..self.first].iter().enumerate();
+        for (k, term) in terms.filter(|(_, term)| term.basis == Basis::Constant) {
+            let u = known.of_quantities(quantities.len(), &[term.index]);
+            for (name, u) in quantities.iter().zip(u.iter()) {
+                if let Some(q) = self.quantities.iter().position(|own| own == name) {
+                    moved[(k, q)] -= u;
+                }
+            }
+        }
+        moved
     }
 
     /// M: how the unknowns of the design move by one standard uncertainty of each quantity.
@@ -163,4 +188,28 @@ impl Stated {
         let changes = sight.covariance() * self.pull(readings, weights);
         Determined::moved(design, sight, &changes)
     }
+}
+
+/// The errors that are uncertain at some of the places; tables of u may be 0 at others.
+fn errors_moved(machine: &Machine, quantities: &[String], readings: &Readings) -> Vec<ErrorIndex> {
+    if quantities.is_empty() {
+        return Vec::new();
+    }
+    let of_chunk = |commands: &[Command]| {
+        let mut errors: Vec<ErrorIndex> = Vec::new();
+        for command in commands {
+            let known = machine.uncertainties_at(command, quantities);
+            for index in known.errors_moved() {
+                if !errors.contains(&index) {
+                    errors.push(index);
+                }
+            }
+        }
+        errors
+    };
+    let mut all: Vec<ErrorIndex> =
+        readings.commands.par_chunks(CHUNK).map(of_chunk).collect::<Vec<_>>().concat();
+    all.sort();
+    all.dedup();
+    all
 }

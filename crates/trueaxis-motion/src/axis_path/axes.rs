@@ -2,7 +2,7 @@
 //! coordinates, and onto a swivelled plane.
 
 use super::elements::sampled;
-use super::fault::{fault, no_farther_than_a_hall, unreachable};
+use super::fault::{fault, no_farther_than_a_hall, not_finite, unreachable};
 use super::{AxisPath, Fault, PathStep, Speed, fraction, path_length};
 use crate::basic::choose;
 use crate::curve::Curve;
@@ -129,13 +129,46 @@ impl AxisPath<'_> {
         feed: Speed,
         out: &mut dyn FnMut(PathStep),
     ) -> Result<(), Fault> {
-        let (begin, mut end) = (self.command, self.command);
+        let mut end = self.command;
         for axis in Axis::ALL {
             if let Some(index) = self.axis_of[axis as usize].filter(|_| m.named.contains(axis)) {
                 let value = m.target[axis];
                 end[index] = if axis.is_rotary() { value.to_radians() } else { value };
             }
         }
+        self.go_straight(m, end, feed, out)
+    }
+
+    /// Rotary axes are named while a plane is swivelled and the tip is not followed: linear axes that are not named stand. With
+    /// some that are, the tip comes to the place in the plane as it lies at the end; all axes go there straight.
+    pub(super) fn turn_on_plane(
+        &mut self,
+        m: &Move,
+        feed: Speed,
+        out: &mut dyn FnMut(PathStep),
+    ) -> Result<(), Fault> {
+        let mut end = self.other_axes(m);
+        let linear = [Axis::X, Axis::Y, Axis::Z];
+        if linear.iter().any(|axis| m.named.contains(*axis)) {
+            let to = self.target(m);
+            let tip = self.place_in_workpiece(self.in_basic(to));
+            let placed = self.control.as_ref().is_some_and(|control| control.place(tip, &mut end));
+            if !placed {
+                return Err(not_finite(m));
+            }
+        }
+        self.go_straight(m, end, feed, out)
+    }
+
+    /// All axes go straight to these positions, and the place in the program is read from there.
+    fn go_straight(
+        &mut self,
+        m: &Move,
+        end: Command,
+        feed: Speed,
+        out: &mut dyn FnMut(PathStep),
+    ) -> Result<(), Fault> {
+        let begin = self.command;
         let length_mm = (self.linear_axes(&end) - self.linear_axes(&begin)).norm();
         let turned = self.rotary_way(&begin, &end);
         let length = path_length(length_mm, turned);

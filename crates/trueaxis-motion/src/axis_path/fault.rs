@@ -85,3 +85,8 @@ pub(super) fn too_many_pieces(m: &Move) -> Fault {
     let hint = "is a unit or a turn wrong? or allow larger pieces: --spacing, --angle, --chord";
     fault(m, None, "too-many-pieces", message, hint)
 }
+
+pub(super) fn not_finite(m: &Move) -> Fault {
+    let message = "the target of the move is not finite".to_owned();
+    fault(m, None, "not-finite", message, "check offsets, scale and coordinates")
+}

@@ -135,6 +135,9 @@ pub(crate) struct Core<'r> {
     pub own_call: Option<(String, usize)>,
     /// The place in the program frame is to be read again.
     is_unread: bool,
+    /// A plane is swivelled; the tip is followed.
+    tilted: bool,
+    tip_followed: bool,
     /// The main program, then the others in the order of their first call.
     pub programs: Vec<Rc<Program>>,
     /// Up to where the text of each was passed.
@@ -177,6 +180,8 @@ impl<'r> Core<'r> {
             collected: None,
             own_call: None,
             is_unread: true,
+            tilted: false,
+            tip_followed: false,
             programs: vec![Rc::new(program.clone())],
             passed: Vec::new(),
             loaded: HashMap::new(),
@@ -224,12 +229,19 @@ impl<'r> Core<'r> {
     #[inline]
     pub fn emit(&mut self, event: Event) {
         self.is_unread |= changes_place(&event);
+        match event {
+            Event::TiltedPlane(on) => self.tilted = on,
+            Event::ToolCentre(on) => self.tip_followed = on,
+            _ => {}
+        }
         self.hand_out(Step::Event(event, self.origin));
     }
 
     #[inline]
     pub fn emit_move(&mut self, step: Move) {
-        self.is_unread |= ends_elsewhere(&step);
+        // On a swivelled plane rotary axes turn alone: the place in the plane is another one then.
+        let turns = step.named.0 & ROTARY.0 != 0;
+        self.is_unread |= ends_elsewhere(&step) || turns && self.tilted && !self.tip_followed;
         self.hand_out(Step::Move(step));
     }
 
@@ -456,6 +468,9 @@ impl<'r> Core<'r> {
         Err(mistakes::missing_program(name, &why, at))
     }
 }
+
+/// A, B and C.
+const ROTARY: AxisSet = AxisSet(0b11_1000);
 
 /// Whether the same axis positions are another place in the program after an event.
 pub(super) fn changes_place(event: &Event) -> bool {

@@ -36,7 +36,7 @@ fn two_correlated_values() -> Vec<f64> {
     let names = vec!["a".to_owned(), "b".to_owned()];
     let covariance = DMatrix::from_row_slice(2, 2, &[1.0, 0.5, 0.5, 1.0]);
     let values = DVector::from_vec(vec![1.0, 0.0]);
-    let known = Known::of_rows(names, &DMatrix::identity(2, 2), &values, &covariance);
+    let known = Known::of_rows(names, &DMatrix::identity(2, 2), &values, &covariance, &[]);
     let known = known.expect("a covariance");
     let (n, g) = (&known.normal, &known.gradient);
     vec![n[(0, 0)], n[(0, 1)], g[0], g[1], known.square]

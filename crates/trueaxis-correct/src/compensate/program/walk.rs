@@ -22,6 +22,7 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_motion::axis_path::{AxisPath, Fault};
 use trueaxis_motion::{Densify, Node, SetUp};
+use trueaxis_nc::Control;
 use trueaxis_nc::moves::{
     Arc, Axis, AxisSet, CompensationSide, Coordinates, Event, FeedMode, Move, MoveKind, Origin,
     Step,
@@ -284,22 +285,24 @@ impl<'w> Walk<'w> {
     /// not name stand where they were written, and increments count from there.
     fn go_as_written(&mut self, m: &Move, begin: &Command, words: Option<(&Words, Modes)>) {
         let mut same = *m;
-        if m.coordinates == Coordinates::Program {
-            let now = self.written.words_of(self.written.command(), Coordinates::Program);
-            let was = self.written.words_of(begin, Coordinates::Program);
-            let is_increment = |axis: Axis| match words {
-                Some((words, modes)) => match &words.axes[axis as usize] {
-                    Some(word) => word.increment.unwrap_or(modes.incremental),
-                    None => words.retracts,
-                },
-                None => false,
-            };
-            for axis in Axis::ALL {
-                if !m.named.contains(axis) {
-                    same.target[axis] = now[axis];
-                } else if is_increment(axis) {
-                    same.target[axis] += now[axis] - was[axis];
-                }
+        let places = |q: &Command| self.written.words_of(q, m.coordinates);
+        let (now, was) = (places(self.written.command()), places(begin));
+        // Words to reference points are places, and words of G53, but not those of SUPA and M91.
+        let counts = matches!(self.text.control(), Control::Sinumerik840d | Control::Heidenhain);
+        let is_place = |w: &Words| w.reference || w.machine.is_some() && !counts;
+        let is_increment = |axis: Axis| match words {
+            Some((words, _)) if is_place(words) => false,
+            Some((words, modes)) => match &words.axes[axis as usize] {
+                Some(word) => word.increment.unwrap_or(modes.incremental),
+                None => words.retracts,
+            },
+            None => false,
+        };
+        for axis in Axis::ALL {
+            if m.named.contains(axis) && is_increment(axis) {
+                same.target[axis] += now[axis] - was[axis];
+            } else if !m.named.contains(axis) && m.coordinates == Coordinates::Program {
+                same.target[axis] = now[axis];
             }
         }
         self.go(&same);
