@@ -35,6 +35,7 @@ pub struct Stated {
     errors: Vec<ErrorIndex>,
     /// Those of the machine, then those of what was known before.
     quantities: Vec<String>,
+    of_machine: usize,
     known: Option<Known>,
 }
 
@@ -56,6 +57,7 @@ impl Stated {
         if errors.is_empty() && !design.instruments.iter().any(|i| i.kind.reads_the_workpiece()) {
             quantities.clear();
         }
+        let of_machine = quantities.len();
         let known = design.known().filter(|known| !known.stated.is_empty()).cloned();
         for (name, _) in known.iter().flat_map(|known| &known.stated) {
             if !quantities.contains(name) {
@@ -76,7 +78,8 @@ impl Stated {
         let further: Vec<Term> = errors.iter().map(constant).collect();
         let (first, count) = (design.terms.len(), further.len());
         let own = (0..design.unknowns()).map(|k| if k < first { k } else { k + count }).collect();
-        Self { all: design.with_more(&further), own, first, errors, quantities, known }
+        let all = design.with_more(&further);
+        Self { all, own, first, errors, quantities, of_machine, known }
     }
 
     /// The names of the quantities; none if none of them changes a reading.
@@ -94,7 +97,8 @@ impl Stated {
         let width = self.all.unknowns();
         let mut slopes = vec![0.0; 3 * width];
         let channels = self.all.slopes(readings, row, &mut slopes);
-        let known = self.all.machine.uncertainties_at(&readings.commands[row], &self.quantities);
+        let quantities = &self.quantities[..self.of_machine];
+        let known = self.all.machine.uncertainties_at(&readings.commands[row], quantities);
         let u = known.of_quantities(self.quantities(), &self.errors);
         let growth = self.growth(readings, row, &known);
         let of_channel = |c: usize| {

@@ -140,7 +140,8 @@ impl AxisPath<'_> {
     }
 
     /// Rotary axes are named while a plane is swivelled and the tip is not followed: linear axes that are not named stand. With
-    /// some that are, the tip comes to the place in the plane as it lies at the end; all axes go there straight.
+    /// some that are, the tip comes to the place in the plane as it lies at the end; all axes go there straight. *Source:*
+    /// HEIDENHAIN TNC 620, user's manual for DIN/ISO programming (2013), M128, "Standard behavior".
     pub(super) fn turn_on_plane(
         &mut self,
         m: &Move,

@@ -239,10 +239,14 @@ impl<'r> Core<'r> {
 
     #[inline]
     pub fn emit_move(&mut self, step: Move) {
-        // On a swivelled plane rotary axes turn alone: the place in the plane is another one then.
-        let turns = step.named.0 & ROTARY.0 != 0;
-        self.is_unread |= ends_elsewhere(&step) || turns && self.tilted && !self.tip_followed;
+        self.is_unread |= ends_elsewhere(&step) || self.turns_alone(step.named);
         self.hand_out(Step::Move(step));
+    }
+
+    /// Whether rotary axes turn alone, on a swivelled plane: the place in the plane is another one then.
+    #[inline]
+    pub fn turns_alone(&self, named: AxisSet) -> bool {
+        self.tilted && !self.tip_followed && named.0 & ROTARY.0 != 0
     }
 
     #[inline]

@@ -67,7 +67,8 @@ impl Run<'_> {
         };
         let in_range = line.target.iter().all(|v| v.abs() < 1e9) && feed.value.abs() < 1e9;
         let shortest = self.modes.shortest && line.named & ROTARY != 0;
-        if line.named == 0 || !in_range || !rapid && feed.value <= 0.0 || shortest {
+        let is_elsewhere = shortest || self.core.turns_alone(AxisSet(line.named));
+        if line.named == 0 || !in_range || !rapid && feed.value <= 0.0 || is_elsewhere {
             return None;
         }
         self.core.modes.feed = feed;

@@ -61,6 +61,9 @@ impl Run<'_> {
             }
             Some(after)
         })?;
+        if self.core.turns_alone(AxisSet(line.named)) {
+            return None;
+        }
         let motion = code.or(self.modes.motion)?;
         let feed = line.feed.unwrap_or(self.core.modes.feed.value);
         let linear = motion == Motion::Linear;
