@@ -97,6 +97,13 @@ pub struct AxisSet(pub u16);
 impl AxisSet {
     /// X, Y and Z.
     pub const XYZ: Self = Self(0b111);
+    /// A, B and C.
+    pub const ROTARY: Self = Self(0b11_1000);
+
+    /// Whether it contains a rotary axis.
+    pub fn turns(self) -> bool {
+        self.0 & Self::ROTARY.0 != 0
+    }
 
     /// Whether it contains an axis.
     pub fn contains(self, axis: Axis) -> bool {

@@ -244,9 +244,8 @@ impl<'r> Core<'r> {
     }
 
     /// Whether rotary axes turn alone, on a swivelled plane: the place in the plane is another one then.
-    #[inline]
     pub fn turns_alone(&self, named: AxisSet) -> bool {
-        self.tilted && !self.tip_followed && named.0 & ROTARY.0 != 0
+        self.tilted && !self.tip_followed && named.turns()
     }
 
     #[inline]
@@ -472,9 +471,6 @@ impl<'r> Core<'r> {
         Err(mistakes::missing_program(name, &why, at))
     }
 }
-
-/// A, B and C.
-const ROTARY: AxisSet = AxisSet(0b11_1000);
 
 /// Whether the same axis positions are another place in the program after an event.
 pub(super) fn changes_place(event: &Event) -> bool {

@@ -5,12 +5,7 @@ use trueaxis_blocks::digits::short_number;
 use super::{Activation, Run};
 use crate::execution::frames::unit;
 use crate::execution::straight::{Line, Measure, line_after_line, read_line};
-use crate::moves::{
-    Axis, AxisSet, CompensationSide, Feed, FeedMode, Move, MoveKind, Origin, Position,
-};
-
-/// Which of the axis bits are A, B and C.
-const ROTARY: u16 = 1 << Axis::A as u16 | 1 << Axis::B as u16 | 1 << Axis::C as u16;
+use crate::moves::{AxisSet, CompensationSide, Feed, FeedMode, Move, MoveKind, Origin, Position};
 
 impl Run<'_> {
     /// Executes the lines with `L` that come next, and nothing else: axis words with plain numbers, F or FMAX,
@@ -66,13 +61,13 @@ impl Run<'_> {
             None => self.core.modes.feed,
         };
         let in_range = line.target.iter().all(|v| v.abs() < 1e9) && feed.value.abs() < 1e9;
-        let shortest = self.modes.shortest && line.named & ROTARY != 0;
-        let is_elsewhere = shortest || self.core.turns_alone(AxisSet(line.named));
+        let named = AxisSet(line.named);
+        let is_elsewhere = self.modes.shortest && named.turns() || self.core.turns_alone(named);
         if line.named == 0 || !in_range || !rapid && feed.value <= 0.0 || is_elsewhere {
             return None;
         }
         self.core.modes.feed = feed;
-        if line.named & ROTARY != 0 {
+        if named.turns() {
             self.direction = None;
         }
         self.frames.position = Position(line.target);
@@ -81,7 +76,7 @@ impl Run<'_> {
             *place += turned;
         }
         let kind = if rapid { MoveKind::Rapid } else { MoveKind::Linear };
-        self.core.emit_move(Move::plain(kind, target, AxisSet(line.named), feed, origin));
+        self.core.emit_move(Move::plain(kind, target, named, feed, origin));
         Some(())
     }
 }

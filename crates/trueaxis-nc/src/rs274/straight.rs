@@ -61,10 +61,8 @@ impl Run<'_> {
             }
             Some(after)
         })?;
-        if self.core.turns_alone(AxisSet(line.named)) {
-            return None;
-        }
-        let motion = code.or(self.modes.motion)?;
+        let named = AxisSet(line.named);
+        let motion = code.or(self.modes.motion).filter(|_| !self.core.turns_alone(named))?;
         let feed = line.feed.unwrap_or(self.core.modes.feed.value);
         let linear = motion == Motion::Linear;
         if linear && line.named != 0 && feed <= 0.0 {
@@ -81,7 +79,6 @@ impl Run<'_> {
             let kind = if linear { MoveKind::Linear } else { MoveKind::Rapid };
             let target = Position(line.target);
             self.frames.position = target;
-            let named = AxisSet(line.named);
             let step = Move::plain(kind, target, named, self.core.modes.feed, origin);
             self.core.emit_move(step);
         }

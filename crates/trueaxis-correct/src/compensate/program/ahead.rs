@@ -68,9 +68,6 @@ pub(super) struct Lead {
     pub is_last: bool,
 }
 
-/// A, B and C as an [`AxisSet`].
-pub(super) const ROTARY: u16 = 0b11_1000;
-
 /// Whether a move removes material: it has a feed.
 fn is_cut(m: &Move) -> bool {
     !matches!(m.kind, MoveKind::Rapid | MoveKind::Align { .. } | MoveKind::Dwell { .. })
@@ -88,7 +85,7 @@ fn lead_to_cut(steps: &mut [Ahead]) {
         }
         if m.kind == MoveKind::Rapid {
             // A direction leads all rotary axes.
-            let turned = if m.direction.is_some() { ROTARY } else { 0 };
+            let turned = if m.direction.is_some() { AxisSet::ROTARY.0 } else { 0 };
             let named = m.named.0 | turned;
             ahead.lead = Lead { axes: AxisSet(named & !replaced.0), begin, is_last };
             replaced = AxisSet(replaced.0 | named);

@@ -23,9 +23,6 @@ use trueaxis_nc::{Control, Program};
 /// All axes.
 const ALL: AxisSet = AxisSet(0b1_1111_1111);
 
-/// A, B and C.
-const ROTARY: AxisSet = AxisSet(0b11_1000);
-
 /// Brackets in each other that FANUC allows.
 ///
 /// # Source
@@ -140,8 +137,8 @@ impl Computed {
         if m.direction.is_some() {
             let computed = words.is_none_or(|w| w.vector.iter().flatten().any(|w| w.computed));
             self.resting.0 = match computed && self.any {
-                true => self.resting.0 | ROTARY.0,
-                false => self.resting.0 & !ROTARY.0,
+                true => self.resting.0 | AxisSet::ROTARY.0,
+                false => self.resting.0 & !AxisSet::ROTARY.0,
             };
         }
     }

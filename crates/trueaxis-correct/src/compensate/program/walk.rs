@@ -2,7 +2,7 @@
 
 mod samples;
 
-use super::ahead::{Ahead, Lead, ROTARY, Stretch};
+use super::ahead::{Ahead, Lead, Stretch};
 use super::arcs::{self, Allowed, PathPlace};
 use super::block::{Block, Held, Written};
 use super::computed::{Computed, free_locals};
@@ -226,7 +226,7 @@ impl<'w> Walk<'w> {
             first: ahead.nodes.start,
         };
         // Words of rotary axes take over from vectors.
-        self.vectors = m.direction.is_some() || self.vectors && m.named.0 & ROTARY == 0;
+        self.vectors = m.direction.is_some() || self.vectors && !m.named.turns();
         let lead = (m.kind == MoveKind::Rapid).then_some(ahead.lead);
         let known = read.map(|read| {
             let modes = self.words(m.origin.line, read);
