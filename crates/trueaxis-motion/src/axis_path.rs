@@ -318,7 +318,7 @@ impl<'m> AxisPath<'m> {
             self.count_from_origin_at(&self.other_axes(m));
         }
         let straight = matches!(m.kind, MoveKind::Rapid | MoveKind::Linear);
-        if self.is_only_tilted() && straight && self.turns(m) {
+        if self.is_only_tilted() && straight && m.named.has_rotary() && m.direction.is_none() {
             return self.turn_on_plane(m, feed, out);
         }
         let (from, to) = (self.place(), self.target(m));
@@ -385,12 +385,6 @@ impl<'m> AxisPath<'m> {
             };
         }
         end
-    }
-
-    /// Whether rotary axes are named.
-    fn turns(&self, m: &Move) -> bool {
-        let is_turned = |axis: &Axis| axis.is_rotary() && m.named.contains(*axis);
-        Axis::ALL.iter().any(is_turned) && m.direction.is_none()
     }
 
     /// The angle that a rotary axis goes to.

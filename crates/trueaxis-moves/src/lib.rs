@@ -101,7 +101,7 @@ impl AxisSet {
     pub const ROTARY: Self = Self(0b11_1000);
 
     /// Whether it contains a rotary axis.
-    pub fn turns(self) -> bool {
+    pub fn has_rotary(self) -> bool {
         self.0 & Self::ROTARY.0 != 0
     }
 

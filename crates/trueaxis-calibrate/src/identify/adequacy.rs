@@ -251,7 +251,7 @@ impl Explained {
     fn add_stated(&mut self, task: Task<'_>) {
         let Task { design: listed, readings, weights, .. } = task;
         let stated = Stated::of(&self.design, readings);
-        if stated.quantities() == 0 {
+        if stated.names().is_empty() {
             return;
         }
         let moved = stated.moved((&self.design, &self.fit.sight), readings, weights);

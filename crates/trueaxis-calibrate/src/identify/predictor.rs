@@ -62,12 +62,14 @@ pub(super) fn predictor(
 ) -> Option<Predictor> {
     let values = all.values(sums, explanations.first()?)?;
     let mut covariance = covariance(all, (sums, explanations), &values)?;
-    let first = explanations.first()?;
     let stated = Stated::of(&all.all, task.readings);
-    let gain = all.covariance(sums, first)? / first.noise.powi(2);
-    let moved = gain * stated.pull(task.readings, task.weights);
-    let moved = stated.off_together(moved, task.readings);
-    covariance += &moved * moved.transpose();
+    if !stated.names().is_empty() {
+        let first = explanations.first()?;
+        let gain = all.covariance(sums, first)? / first.noise.powi(2);
+        let moved = gain * stated.pull(task.readings, task.weights);
+        let off = stated.off_together(moved, task.readings);
+        covariance += &off * off.transpose();
+    }
     let in_sample = rms(all, task, |_| &values);
     let mut splits = Vec::new();
     if task.scores && task.readings.len() <= MOST_ROWS {

@@ -11,7 +11,6 @@
 use super::design::Design;
 use super::determined::Determined;
 use super::fit::Observability;
-use super::known::Known;
 use super::term::{Basis, Term};
 use crate::instruments::Readings;
 use nalgebra::{DMatrix, DVector};
@@ -36,7 +35,6 @@ pub struct Stated {
     /// Those of the machine, then those of what was known before.
     quantities: Vec<String>,
     of_machine: usize,
-    known: Option<Known>,
 }
 
 /// One number of a reading.
@@ -58,8 +56,7 @@ impl Stated {
             quantities.clear();
         }
         let of_machine = quantities.len();
-        let known = design.known().filter(|known| !known.stated.is_empty()).cloned();
-        for (name, _) in known.iter().flat_map(|known| &known.stated) {
+        for (name, _) in design.known().into_iter().flat_map(|known| &known.stated) {
             if !quantities.contains(name) {
                 quantities.push(name.clone());
             }
@@ -79,17 +76,12 @@ impl Stated {
         let (first, count) = (design.terms.len(), further.len());
         let own = (0..design.unknowns()).map(|k| if k < first { k } else { k + count }).collect();
         let all = design.with_more(&further);
-        Self { all, own, first, errors, quantities, of_machine, known }
+        Self { all, own, first, errors, quantities, of_machine }
     }
 
     /// The names of the quantities; none if none of them changes a reading.
     pub fn names(&self) -> &[String] {
         &self.quantities
-    }
-
-    /// How many quantities there are.
-    pub fn quantities(&self) -> usize {
-        self.quantities.len()
     }
 
     /// The numbers of a reading.
@@ -99,7 +91,7 @@ impl Stated {
         let channels = self.all.slopes(readings, row, &mut slopes);
         let quantities = &self.quantities[..self.of_machine];
         let known = self.all.machine.uncertainties_at(&readings.commands[row], quantities);
-        let u = known.of_quantities(self.quantities(), &self.errors);
+        let u = known.of_quantities(self.quantities.len(), &self.errors);
         let growth = self.growth(readings, row, &known);
         let of_channel = |c: usize| {
             let row = &slopes[c * width..(c + 1) * width];
@@ -136,7 +128,7 @@ impl Stated {
 
     /// JᵀWS: a row for each unknown of the design, a column for each quantity; `weights` of the readings, empty for 1.
     pub fn pull(&self, readings: &Readings, weights: &[f64]) -> DMatrix<f64> {
-        let zeros = || DMatrix::zeros(self.own.len(), self.quantities());
+        let zeros = || DMatrix::zeros(self.own.len(), self.quantities.len());
         if self.quantities.is_empty() {
             return zeros();
         }
@@ -154,10 +146,10 @@ impl Stated {
         };
         let parts: Vec<DMatrix<f64>> = rows.par_chunks(CHUNK).map(of_chunk).collect();
         let mut pull = parts.into_iter().fold(zeros(), |sum, part| sum + part);
-        for (name, by) in self.known.iter().flat_map(|known| &known.stated) {
+        for (name, by) in self.all.known().into_iter().flat_map(|known| &known.stated) {
             if let Some(k) = self.quantities.iter().position(|own| own == name) {
                 let mut column = pull.column_mut(k);
-                column += by;
+                column += by.select_rows(&self.own);
             }
         }
         pull

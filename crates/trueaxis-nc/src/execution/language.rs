@@ -245,7 +245,7 @@ impl<'r> Core<'r> {
 
     /// Whether rotary axes turn alone, on a swivelled plane: the place in the plane is another one then.
     pub fn turns_alone(&self, named: AxisSet) -> bool {
-        self.tilted && !self.tip_followed && named.turns()
+        self.tilted && !self.tip_followed && named.has_rotary()
     }
 
     #[inline]

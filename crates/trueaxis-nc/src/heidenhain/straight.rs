@@ -62,12 +62,13 @@ impl Run<'_> {
         };
         let in_range = line.target.iter().all(|v| v.abs() < 1e9) && feed.value.abs() < 1e9;
         let named = AxisSet(line.named);
-        let is_elsewhere = self.modes.shortest && named.turns() || self.core.turns_alone(named);
+        let is_elsewhere =
+            self.modes.shortest && named.has_rotary() || self.core.turns_alone(named);
         if line.named == 0 || !in_range || !rapid && feed.value <= 0.0 || is_elsewhere {
             return None;
         }
         self.core.modes.feed = feed;
-        if named.turns() {
+        if named.has_rotary() {
             self.direction = None;
         }
         self.frames.position = Position(line.target);

@@ -401,7 +401,7 @@ impl Fitted {
         // The effect of each uncertain quantity on the fitted set-up.
         let taken = &self.covariance * stated.pull(readings, &[]);
         let mut found = vec![[0.0; 3]; readings.len()];
-        let q = stated.quantities();
+        let q = stated.names().len();
         // GᵀG of the shares g = s/u of the quantities, and Σ|g|⁴: Σ ρ² over all pairs of numbers.
         let (mut gram, mut own, mut count) = (DMatrix::<f64>::zeros(q, q), 0.0, 0.0);
         for (row, found) in found.iter_mut().enumerate() {

@@ -208,7 +208,7 @@ impl Block<'_> {
         let rounded = self.grid.round(exact, Of::Rotary);
         let stays = match self.words.axes[axis as usize].as_ref().filter(|_| piece == 0) {
             None => now,
-            Some(word) if word.increment.unwrap_or(self.incremental) => return rounded - exact,
+            Some(word) if word.is_increment(self.incremental) => return rounded - exact,
             Some(_) => {
                 let old = self.m.target[axis];
                 let turns = self.way(axis) != RotaryDirection::AsWritten;
@@ -256,7 +256,7 @@ impl Block<'_> {
         };
         m.named = m.named.with(axis);
         let old = self.m.target[axis];
-        let is_increment = word.increment.unwrap_or(self.incremental);
+        let is_increment = word.is_increment(self.incremental);
         let (value, shown) = if is_increment {
             let old = word.value.ok_or_else(|| self.computed(axis))?;
             let by = wanted - now;
@@ -296,7 +296,7 @@ impl Block<'_> {
             m.rotary_directions[axis as usize - Axis::A as usize] = self.way(axis);
         }
         let word = self.words.axes[axis as usize].as_ref();
-        let increments = word.map_or(self.incremental, |w| w.increment.unwrap_or(self.incremental));
+        let increments = word.map_or(self.incremental, |w| w.is_increment(self.incremental));
         if !increments {
             m.target[axis] = self.m.target[axis];
             return Ok(());

@@ -127,7 +127,7 @@ impl Computed {
         for axis in Axis::ALL.into_iter().filter(|axis| m.named.contains(*axis)) {
             let word = words.and_then(|w| w.axes[axis as usize].as_ref());
             let is_plain = word.is_some_and(|w| w.value.is_some() && !w.computed);
-            let counts = word.is_some_and(|w| w.increment.unwrap_or(incremental));
+            let counts = word.is_some_and(|w| w.is_increment(incremental));
             if !is_plain && self.any {
                 self.resting = self.resting.with(axis);
             } else if is_plain && !counts && !elsewhere {

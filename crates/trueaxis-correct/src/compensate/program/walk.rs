@@ -226,7 +226,7 @@ impl<'w> Walk<'w> {
             first: ahead.nodes.start,
         };
         // Words of rotary axes take over from vectors.
-        self.vectors = m.direction.is_some() || self.vectors && !m.named.turns();
+        self.vectors = m.direction.is_some() || self.vectors && !m.named.has_rotary();
         let lead = (m.kind == MoveKind::Rapid).then_some(ahead.lead);
         let known = read.map(|read| {
             let modes = self.words(m.origin.line, read);
@@ -290,13 +290,8 @@ impl<'w> Walk<'w> {
         // Words to reference points are places, and words of G53, but not those of SUPA and M91.
         let counts = matches!(self.text.control(), Control::Sinumerik840d | Control::Heidenhain);
         let is_place = |w: &Words| w.reference || w.machine.is_some() && !counts;
-        let is_increment = |axis: Axis| match words {
-            Some((words, _)) if is_place(words) => false,
-            Some((words, modes)) => match &words.axes[axis as usize] {
-                Some(word) => word.increment.unwrap_or(modes.incremental),
-                None => words.retracts,
-            },
-            None => false,
+        let is_increment = |axis: Axis| {
+            words.is_some_and(|(w, modes)| !is_place(w) && w.is_increment(axis, modes.incremental))
         };
         for axis in Axis::ALL {
             if m.named.contains(axis) && is_increment(axis) {

@@ -22,6 +22,13 @@ pub(super) struct Word {
     pub computed: bool,
 }
 
+impl Word {
+    /// Whether it counts from the present place, where G91 is on or not.
+    pub fn is_increment(&self, incremental: bool) -> bool {
+        self.increment.unwrap_or(incremental)
+    }
+}
+
 /// The words of a block that a correction has to do with.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Words {
@@ -64,6 +71,12 @@ pub(super) struct Words {
 }
 
 impl Words {
+    /// Whether the block leads an axis by a way from where it stands, not to a place.
+    pub fn is_increment(&self, axis: Axis, incremental: bool) -> bool {
+        let word = self.axes[axis as usize].as_ref();
+        word.map_or(self.retracts, |word| word.is_increment(incremental))
+    }
+
     /// Where further axis words go.
     pub fn room(&self, control: Control) -> usize {
         let klartext = (control == Control::Heidenhain).then_some(self.motion.as_ref());
