@@ -234,6 +234,23 @@ fn law_a_chain_of_campaigns_knows_what_all_readings_at_once_show() {
     assert!(u > 1e-4 && u < 1.1e-4, "{u}\n{left}");
 }
 
+/// GUM G.4, Welch and Satterthwaite: ν = ν₀ (u/u₀)⁴, where what is stated has infinitely many and the noise was found from the residual.
+#[test]
+fn law_what_is_stated_has_infinitely_many_degrees_of_freedom() {
+    let found = |expansion: &str| {
+        let hall = HALL.replace("10 ± 0.5", expansion);
+        let (campaign, mut real) = campaign([("hall.toml", &hall), ("laser.toml", LASER)]);
+        real.disturb.noise = 3.0;
+        found(&campaign, &real).found[0].clone()
+    };
+    let (exact, stated) = (found("10"), found("10 ± 0.05"));
+    let [(_, u0), (_, u)] = [&exact, &stated].map(|found| found.value.expect("EXX"));
+    let [few, more] =
+        [&exact, &stated].map(|found| found.degrees_of_freedom.expect("a noise that was found"));
+    assert!(u > 1.2 * u0, "{u0} {u}");
+    assert!((more / (few * (u / u0).powi(4)) - 1.0).abs() < 1e-6, "{few} {more}");
+}
+
 /// Every second of many rows at the fixed point of the scale, where its expansion moves nothing: u of the others counts all the same.
 #[test]
 fn law_u_counts_every_row_however_they_alternate() {
@@ -247,4 +264,24 @@ fn law_u_counts_every_row_however_they_alternate() {
     }
     let u = found_from(&campaign, alternate).found[0].value.expect("EXX").1;
     assert!((u / 2.5e-3 - 1.0).abs() < 0.01, "{u}");
+}
+
+/// What is stated cannot be more than u, which contains it.
+#[test]
+fn a_prior_of_which_more_is_stated_than_u_is_refused() {
+    let (first, real) = campaign([("hall.toml", HALL), ("laser.toml", LASER)]);
+    let readings = measure(&first, &real).expect("readings").readings;
+    let found = found_from(&first, readings.clone());
+    let left = covariance_file(&first, &found, &Records::bare(readings), None);
+    let (before, stated) = left.rsplit_once("stated = ").expect("what is stated");
+    let (_, after) = stated.split_once('\n').expect("a line");
+    let wrong = format!("{before}stated = {{ \"expansion of scale X\" = 1.0 }}\n{after}");
+    let folder = root().join("machines/lei-hsu-mill");
+    let again = format!("prior = \"left.toml\"\n{LASER}");
+    let texts =
+        [("hall.toml", HALL), ("laser.toml", again.as_str()), ("left.toml", wrong.as_str())];
+    let files = disk().with_texts(texts.map(|(name, text)| (folder.join(name), text.to_owned())));
+    let (read, problems) =
+        read_campaign(&files, &folder.join("laser.toml"), |root, c| read_virtual(root, c, Some(1)));
+    assert!(read.is_none() && problems.iter().any(|p| p.code == "bad-covariance"), "{problems:?}");
 }

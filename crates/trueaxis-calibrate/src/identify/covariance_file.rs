@@ -49,7 +49,8 @@ pub fn covariance_file(
             covariance[(i, i)].max(0.0).sqrt(),
             variances.join(", ")
         );
-        let by = moves.iter().filter(|(_, by)| by[i] != 0.0);
+        let least = NOTHING * covariance[(i, i)].max(0.0).sqrt();
+        let by = moves.iter().filter(|(_, by)| by[i].abs() > least);
         let by: Vec<String> = by.map(|(name, by)| format!("{name:?} = {:e}", by[i])).collect();
         if !by.is_empty() {
             let _ = writeln!(text, "stated = {{ {} }}", by.join(", "));

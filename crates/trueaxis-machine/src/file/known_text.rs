@@ -29,14 +29,14 @@ impl KnownRow {
             })?
         };
         let of = section.require("of", "{ EX0C = 1.0 }").and_then(|i| numbers(i, "known.of"));
-        let stated: Vec<(String, f64)> =
-            section.get("stated").map_or(Some(Vec::new()), |i| numbers(i, "known.stated"))?;
+        let stated = section.get("stated").map_or(Some(Vec::new()), |i| numbers(i, "known.stated"));
         let number =
             |key| section.require(key, "in mm, rad, s or 1").and_then(|i: Item<'_>| i.number());
         let (value, u) = (number("value"), number("u"));
         let item = section.require("covariance", "with all before it, and its own variance")?;
         let covariance: Vec<f64> = item.list()?.iter().map(Item::number).collect::<Option<_>>()?;
         let (of, value, u): (Vec<(String, f64)>, _, _) = (of?, value?, u?);
+        let stated: Vec<(String, f64)> = stated?;
         let variance = covariance.last().copied().unwrap_or(0.0);
         if covariance.len() != before + 1 {
             let message = format!("{} covariances, expected {}", covariance.len(), before + 1);

@@ -113,6 +113,8 @@ fn read_file(root: &Section<'_>, design: &Design, path: &Path) -> Option<Prior> 
             readings.extend(file.zip(mark).map(|(f, m)| (f.to_owned(), m.to_owned())));
         });
     }
+    // Asked for before a bad row ends the reading.
+    let set_ups = root.get("setup");
     let mut rows: Vec<(KnownRow, Place)> = Vec::new();
     for item in root.require("known", hint)?.list()? {
         let row = item.section("known", |s| KnownRow::read(s, rows.len())).flatten()?;
@@ -122,10 +124,12 @@ fn read_file(root: &Section<'_>, design: &Design, path: &Path) -> Option<Prior> 
         let begins = |name: &String| name.split_once('.').is_some_and(|(i, _)| i == instrument);
         rows.iter().any(|(row, _)| row.of.iter().any(|(name, _)| begins(name)))
     };
-    root.section("setup", |s| {
-        for (name, _, item) in s.entries() {
-            check_set_up(s, &item, name, design, used(name));
-        }
+    set_ups.and_then(|item| {
+        item.section("setup", |s| {
+            for (name, _, item) in s.entries() {
+                check_set_up(s, &item, name, design, used(name));
+            }
+        })
     });
     let known = known(root, &rows, design)?;
     Some(Prior { path: path.to_owned(), campaign: campaign?, known, readings })
@@ -220,11 +224,12 @@ fn known(root: &Section<'_>, rows: &[(KnownRow, Place)], design: &Design) -> Opt
     let values = DVector::from_fn(m, |i, _| rows[kept[i]].0.value);
     let moves = moves(rows, &kept);
     // What is stated is the same in the next campaign: it is no part of what is independent.
-    let own = moves.iter().fold(covariance.clone(), |c, (_, m)| c - m * m.transpose());
-    let known = Known::of_rows(names.clone(), &factors, &values, &own, &moves);
-    let known = known.or_else(|| Known::of_rows(names, &factors, &values, &covariance, &[]));
+    let own = moves.iter().fold(covariance, |c, (_, m)| c - m * m.transpose());
+    let known = Known::of_rows(names, &factors, &values, &own, &moves);
     if known.is_none() {
-        let message = "this is no covariance: a correlation is 1 or more".to_owned();
+        let message =
+            "this is no covariance: a correlation is 1 or more, or `stated` alone is more than u"
+                .to_owned();
         root.error("bad-covariance", message, "take the file as `identify -o` wrote it");
     }
     known
