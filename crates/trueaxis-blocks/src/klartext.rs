@@ -158,6 +158,17 @@ impl<'s> Cursor<'s> {
         }
     }
 
+    /// After the last word that was taken.
+    pub fn taken_to(&self) -> usize {
+        let before = self.at.checked_sub(1).and_then(|at| self.tokens.get(at));
+        if self.taken > 0 { self.offset() } else { before.map_or(self.start, |t| t.end) }
+    }
+
+    /// Whether a name, as that of a parameter, has been taken since a byte.
+    pub fn names_since(&self, at: usize) -> bool {
+        self.source[at..self.taken_to().max(at)].iter().any(u8::is_ascii_alphabetic)
+    }
+
     /// The letters that stand here.
     #[inline]
     pub fn letters(&self) -> &'s [u8] {

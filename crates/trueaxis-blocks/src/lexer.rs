@@ -127,7 +127,9 @@ impl<'s> Lexer<'s> {
             b'%' if self.fresh && dialect.header_lines => (TokenKind::Comment, self.line_end(from)),
             b'%' => (TokenKind::Mark, from + 1),
             b'/' if self.fresh => {
-                let digit = self.source.get(from + 1).is_some_and(u8::is_ascii_digit);
+                // In Klartext the number of the block follows, elsewhere a level.
+                let digit = dialect.control != Control::Heidenhain
+                    && self.source.get(from + 1).is_some_and(u8::is_ascii_digit);
                 (TokenKind::Skip, from + 1 + usize::from(digit))
             }
             b'<' if dialect.angle_names => (TokenKind::Name, self.closed(from, b'>')),

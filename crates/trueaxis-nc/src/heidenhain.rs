@@ -213,7 +213,7 @@ impl<'r> Run<'r> {
         let next = self.statement(&mut cursor)?;
         cursor.finish()?;
         if steers {
-            self.core.emit(Event::Computed { text: line.start..line.end, value: None });
+            self.core.report_computed(line.start..line.end, None);
         }
         match self.core.own_call.take() {
             Some((name, at)) if next == Next::Following => self.call_program(&name, at),

@@ -183,7 +183,7 @@ impl<'r> Run<'r> {
         self.core.emit(Event::Block { text: at..line.end });
         let next = self.statement(&mut reader)?;
         if next == Next::Jumped {
-            self.core.report_steering(at..line.end);
+            self.core.report_computed(at..line.end, None);
         }
         Ok(next)
     }

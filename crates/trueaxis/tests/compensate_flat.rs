@@ -9,7 +9,7 @@ use trueaxis::compensate::program::{MARK, ProgramOptions, Rewritten, compensate_
 use trueaxis::files::disk;
 use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
-use trueaxis::nc::moves::{Move, Origin, Step};
+use trueaxis::nc::moves::{Move, MoveKind, Origin, Step};
 use trueaxis::nc::{Control, Library, Program, Settings, interpret};
 use trueaxis::simulate::SetUp;
 
@@ -260,4 +260,74 @@ fn law_turning_cycles_unroll_to_their_moves() {
     let (done, problems) = compensate_program(&machine, &program, &setup, &options);
     let Some(done) = done else { panic!("{problems:?}") };
     assert!(done.proof.after.tip_end.value <= 1e-9, "{:?}", done.proof.after);
+}
+
+/// Cycles whose arguments, places and calls are computed; lines of Klartext with `/` before their number.
+const CYCLES: [(Control, &str, &str); 5] = [
+    (
+        Control::Heidenhain,
+        "holes.h",
+        "0 BEGIN PGM A MM\n1 Q3 = +50\n2 Q9 = +20\n3 L X+100 Y+100 Z-10 R0 FMAX\n\
+         4 CYCL DEF 200 DRILLING~\n   Q200=2 ;SET-UP~\n   Q201=-Q9 ;DEPTH~\n   Q206=Q3 ;FEED~\n   Q202=Q9/2 ~\n\
+         \x20  Q203=-60~\n   Q204=50\n\
+         5 L X+110 Y+Q9 FMAX M99\n6 Q9 = +30\n/7 L X+Q3 Y+Q9 R0 FMAX M99\n8 LBL 1\n9 L IX+Q9 FMAX M99\n\
+         10 CALL LBL 1 REP 2\n11 L Z-Q9 FMAX\n/12 M30\n13 END PGM A MM\n",
+    ),
+    (
+        Control::Heidenhain,
+        "old.h",
+        "0 BEGIN PGM A MM\n1 Q3 = +50\n2 L X+100 Y+100 Z-10 R0 FMAX\n3 CYCL DEF 1.0 PECKING\n\
+         4 CYCL DEF 1.1 SET UP 2\n5 CYCL DEF 1.2 DEPTH -Q3\n6 CYCL DEF 1.3 PECKG 20\n7 CYCL DEF 1.4 DWELL 0\n\
+         8 CYCL DEF 1.5 FQ3\n9 L X+Q3 FMAX M99\n10 M30\n11 END PGM A MM\n",
+    ),
+    (
+        Control::Sinumerik840d,
+        "holes.mpf",
+        "G17 G710 G90 G94 F500\nR1=100 R2=-60\nG0 X=R1 Y100 Z-30\nCYCLE81(-30,-40,2,R2)\nX=R1+20\n\
+         MCALL CYCLE83(-30,-40,2,R2,,-45,,2,0,0,1,0)\nX=R1+30\nY=IC(R1/10)\nMCALL\nG0 Z-30\nM30\n",
+    ),
+    (
+        Control::Fanuc,
+        "holes.nc",
+        "%\nO1\nG21 G90 G94 F500.\n#1=100.\n#2=-60.\nG0 X#1 Y100. Z-30.\nG99 G81 X[#1+10.] Z#2 R-38. F[#1*3]\n\
+         #1=130.\nX#1\nG91 G83 X[#1-125.] Y10. Z-12. R-6. Q[ABS[#2]/20] K2\nG90 G80\nG0 Z-30.\nM30\n%\n",
+    ),
+    (
+        Control::LinuxCnc,
+        "holes.ngc",
+        "G21 G90 G94 F500\n#1=100\nG0 X#1 Y100 Z-30\nG98 G81 X[#1+10] Z[0-#1/2] R-38 F[#1*3]\n#1=130\nX#1\nG80\n\
+         G0 Z-30\nM2\n",
+    ),
+];
+
+#[test]
+fn law_cycles_with_computed_arguments_unroll_to_their_moves() {
+    let lost = with_lost_motion(&machine("three-axis-mill"), 2e-3);
+    for (control, name, text) in CYCLES {
+        let program = program(control, name, text);
+        let (done, problems) = flat(&bare("three-axis-mill"), &program);
+        let Some(done) = done else { panic!("{name}: {problems:?}") };
+        let new = String::from_utf8(done.text.into_vec()).unwrap();
+        let unrolled = Program::new(name, new.clone().into_bytes(), control);
+        let plain = |all: Vec<Move>| -> Vec<_> {
+            // A rapid has no feed; what a block names is not what it moves.
+            let feed = |m: &Move| (m.kind != MoveKind::Rapid).then_some(m.feed);
+            all.into_iter().map(|m| (m.kind, m.target, feed(&m))).collect()
+        };
+        let (was, is) = (plain(moves(&program)), plain(moves(&unrolled)));
+        assert!(was.len() > 4, "{name} {}", was.len());
+        assert_eq!(was, is, "{name}:\n{new}");
+        assert!(name != "old.h" || new.contains("F50"), "{new}");
+        for word in ["#", "=R", "Q3", "Q9", "M99", "G81", "G83"] {
+            let found = new.lines().filter(|l| !l.contains(MARK)).find(|l| l.contains(word));
+            assert_eq!(found, None, "{name}:\n{new}");
+        }
+        let options = ProgramOptions { increments: None, ..ProgramOptions::default() };
+        let setup = SetUp { files: disk(), ..SetUp::default() };
+        let (done, problems) = compensate_program(&lost, &program, &setup, &options);
+        let Some(done) = done else { panic!("{name}: {problems:?}") };
+        let (before, after) = (done.proof.before, done.proof.after);
+        assert!(before.tip_end.value > 1e-3, "{name} {before:?}");
+        assert!(after.tip_end.value <= 1e-9, "{name} {after:?}");
+    }
 }

@@ -340,10 +340,10 @@ impl<'r> Core<'r> {
         changed
     }
 
-    /// A part of the block that only steers the execution, if anybody asks.
-    pub fn report_steering(&mut self, text: std::ops::Range<usize>) {
+    /// What a part of the block comes to, if anybody asks; without a value it only steers the execution.
+    pub fn report_computed(&mut self, text: std::ops::Range<usize>, value: Option<f64>) {
         if self.settings.report_blocks {
-            self.emit(Event::Computed { text, value: None });
+            self.emit(Event::Computed { text, value });
         }
     }
 

@@ -74,13 +74,18 @@ impl Run<'_> {
         }
     }
 
-    /// The number of a line such as `DEPTH-20`, whatever word stands before it.
+    /// The number of a line such as `DEPTH-20` or `FQ3`, whatever word stands before it.
     fn labelled_value(&mut self, c: &mut Cursor<'_>) -> Result<f64, Fault> {
-        while !c.letters().is_empty() && !c.is("Q") && !c.is("QL") && !c.is("QR") {
-            c.take_letters(usize::MAX);
+        loop {
+            let letters = c.letters().to_ascii_uppercase();
+            let parameter = ["Q", "QL", "QR"].iter().find(|q| letters.ends_with(q.as_bytes()));
+            let count = letters.len() - parameter.map_or(0, |q| q.len());
+            if count == 0 {
+                return self.value(c);
+            }
+            c.take_letters(count);
             while c.accept_symbol(b'.') || c.accept_point() {}
         }
-        self.value(c)
     }
 
     /// CYCL DEF 7.1 X+10, or IX; #5 is a line of a datum table.
@@ -283,7 +288,12 @@ impl Run<'_> {
         if c.accept_any(&["PREDEF", "FU", "FZ"]).is_some() || c.text().is_some() {
             return Ok(None);
         }
-        self.formula(c).map(Some)
+        let at = c.offset();
+        let value = self.formula(c)?;
+        if c.names_since(at) {
+            self.core.report_computed(at..c.taken_to(), Some(value));
+        }
+        Ok(Some(value))
     }
 
     /// Cycle 247: preset n is the work offset n of the settings.

@@ -5,7 +5,6 @@ use super::variables::{StoredValue, Variable};
 use super::{Run, fault};
 use crate::execution::mistakes;
 use crate::execution::values::{self, finite, not_zero};
-use crate::moves::Event;
 use crate::text::program::Fault;
 
 /// Largest depth of nested brackets and functions: ample for programs, small for the stack.
@@ -32,10 +31,8 @@ impl Run<'_> {
             None => match self.variable(c)? {
                 Some(variable) => {
                     let read = self.read(variable, at)?;
-                    if self.core.settings.report_blocks {
-                        let value = Some(if negative { -read } else { read });
-                        self.core.emit(Event::Computed { text: at..c.offset(), value });
-                    }
+                    let value = if negative { -read } else { read };
+                    self.core.report_computed(at..c.taken_to(), Some(value));
                     Some(read)
                 }
                 None => None,

@@ -20,11 +20,9 @@ impl Run<'_> {
                         true => (*offset, None),
                         false => (offset + 1, Some(value)),
                     };
-                    self.core.emit(Event::Computed { text: from..end, value });
+                    self.core.report_computed(from..end, value);
                 }
-                Item::Assign { offset, .. } => {
-                    self.core.emit(Event::Computed { text: *offset..end, value: None });
-                }
+                Item::Assign { offset, .. } => self.core.report_computed(*offset..end, None),
                 _ => {}
             }
         }
@@ -55,13 +53,12 @@ impl Run<'_> {
             _ => false,
         });
         if whole || !calls {
-            self.core.emit(Event::Computed { text: passage.block.span.clone(), value: None });
+            self.core.report_computed(passage.block.span.clone(), None);
             return;
         }
         // The M function of the call stands alone: others share no block with it.
         for item in passage.block.items.iter().filter(|item| letter(item, b"MPLQ")) {
-            let text = offset_of(item)..end_of(item, passage.block);
-            self.core.emit(Event::Computed { text, value: None });
+            self.core.report_computed(offset_of(item)..end_of(item, passage.block), None);
         }
     }
 }

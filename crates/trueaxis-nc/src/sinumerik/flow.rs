@@ -40,14 +40,14 @@ impl Run<'_> {
         }
         let at = reader.here();
         if at > labels {
-            self.core.report_steering(labels..at);
+            self.core.report_computed(labels..at, None);
         }
         if let Some(word) = reader.word()
             && !self.has_variable(&word)
             && let Some(next) = self.control(&word, reader, at)?
         {
             if STEERING.contains(&word.as_str()) {
-                self.core.report_steering(self.core.start..self.end);
+                self.core.report_computed(self.core.start..self.end, None);
             }
             return Ok(next);
         }

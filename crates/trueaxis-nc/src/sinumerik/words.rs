@@ -146,7 +146,7 @@ impl Run<'_> {
                 ));
             }
             self.assignment(&slot, reader)?;
-            self.core.report_steering(at..reader.here());
+            self.core.report_computed(at..reader.here(), None);
             return Ok(None);
         }
         if letter == b'L'
@@ -239,9 +239,8 @@ impl Run<'_> {
         let plain = reader.at == first + 1 + usize::from(signed);
         let begins = reader.source.get(from + usize::from(signed));
         let is_digit = begins.is_some_and(|b| b.is_ascii_digit() || *b == b'.');
-        if self.core.settings.report_blocks && !(plain && is_digit) {
-            let text = from..reader.here();
-            self.core.emit(crate::moves::Event::Computed { text, value: Some(value) });
+        if !(plain && is_digit) {
+            self.core.report_computed(from..reader.here(), Some(value));
         }
         Ok(value)
     }
@@ -356,7 +355,7 @@ impl Run<'_> {
                 return Err(mistakes::missing_equals(word, "write NAME=2", reader.here()));
             }
             self.assignment(&slot, reader)?;
-            self.core.report_steering(at..reader.here());
+            self.core.report_computed(at..reader.here(), None);
             return Ok(());
         }
         reader.advance();

@@ -18,7 +18,7 @@ use super::words::Words;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::mpsc::{Receiver, sync_channel};
-use trueaxis_input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place, Severity};
 use trueaxis_machine::Machine;
 use trueaxis_motion::{SetUp, execute};
 use trueaxis_nc::lexer::{Lexer, TokenKind};
@@ -118,7 +118,7 @@ pub(super) fn unrolled(
     let origins = flat.origins;
     match differs(mounted, [program, &text], setup, contour) {
         None => Some(text),
-        Some(at) => {
+        Some((at, error)) => {
             let origin = origins.get(at.saturating_sub(1) as usize).copied().unwrap_or_default();
             let file = programs.get(origin.program as usize).map_or(program.file(), Program::file);
             let place = Place { file: file.to_owned(), line: origin.line as usize, column: 1 };
@@ -126,13 +126,35 @@ pub(super) fn unrolled(
             let line =
                 lines.skip(at.saturating_sub(1) as usize).map(String::from_utf8_lossy).next();
             let line = line.unwrap_or_default();
-            let message =
-                format!("unrolled to `{}`, the program would go another way", line.trim());
-            let hint = "modal macros, tapping, cycles with computed arguments and moves in a block that \
+            let message = match error {
+                Some(error) => format!("unrolled to `{}`, it is refused: {error}", line.trim()),
+                None => format!("unrolled to `{}`, the program would go another way", line.trim()),
+            };
+            let hint = "modal macros, tapping and moves in a block that \
                         calls do not unroll: write this block out; the postprocessor can";
             problems.error("not-unrolled", place, message, hint);
             None
         }
+    }
+}
+
+/// What stands before the words of a block: `/`, and in Klartext the number.
+struct Front {
+    skip: String,
+    klartext: bool,
+}
+
+impl Front {
+    fn of(program: &Program, words: &Words) -> Self {
+        let skip = words.skip.clone().map(|range| &program.source()[range]);
+        let skip = String::from_utf8_lossy(skip.unwrap_or_default()).into_owned();
+        Self { skip, klartext: program.dialect().control == Control::Heidenhain }
+    }
+
+    /// As it is written before the block with a number.
+    fn text(&self, number: u32) -> String {
+        let number = if self.klartext { format!("{number} ") } else { String::new() };
+        format!("{}{number}", self.skip)
     }
 }
 
@@ -160,7 +182,8 @@ impl Flat<'_> {
         if told.computed.iter().any(|(range, value)| value.is_none() && steers(range)) {
             let comments = comments(program, &line);
             if !comments.is_empty() {
-                let comments = [self.front(program, &line), comments].concat();
+                let front = Front::of(program, &Words::read(source, program.dialect(), line));
+                let comments = [front.text(self.number).as_bytes(), &comments].concat();
                 self.line(&comments, told.origin);
             }
             return;
@@ -184,16 +207,16 @@ impl Flat<'_> {
         }
         let words = Words::read(source, program.dialect(), line.clone());
         self.modes.follow(&words);
-        if self.centre(program, &line, told) {
+        let front = Front::of(program, &words);
+        if self.centre(program, words.front..line.end, told, &front) {
             return;
         }
         self.place = told.moves.last().map(|m| m.target).or(self.place);
-        if self.cycle(program, &line, &words, told) {
+        if self.cycle(program, words.front..line.end, told, &edits, &front) {
             return;
         }
         if words.front > line.start {
-            let new = String::from_utf8_lossy(&self.front(program, &line)).into_owned();
-            edits.put(line.start..words.front, new.trim_end());
+            edits.put(line.start..words.front, front.text(self.number).trim_end());
         }
         self.restate(program, &words, told, &mut edits);
         let was_blank = source[line.clone()].iter().all(u8::is_ascii_whitespace);
@@ -207,34 +230,31 @@ impl Flat<'_> {
     }
 
     /// Writes the path of the centre of the tool; `false` if the block has no radius compensation.
-    fn centre(&mut self, program: &Program, line: &Range<usize>, told: &Told) -> bool {
+    fn centre(
+        &mut self,
+        program: &Program,
+        line: Range<usize>,
+        told: &Told,
+        front: &Front,
+    ) -> bool {
         if self.contour == Contour::Kept || !told.on_contour {
             return false;
         }
         let from = self.place;
-        let Some(found) = centre::written(program, line, &told.moves, from, self.modes) else {
+        let Some(found) = centre::written(program, &line, &told.moves, from, self.modes) else {
             return false;
         };
         self.place = told.moves.last().map(|m| m.target).or(from);
-        self.lines(program.dialect().control, &found, told.origin);
+        self.lines(front, &found, told.origin);
         true
     }
 
-    /// What remains of a block, and its moves.
-    fn lines(&mut self, control: Control, unrolled: &cycles::Unrolled, origin: Origin) {
-        let numbered = |flat: &Self, text: &str| match control {
-            Control::Heidenhain => {
-                format!("{} {}", flat.number, text.trim_start_matches(|c: char| c.is_ascii_digit()))
-            }
-            _ => text.to_owned(),
-        };
-        if !unrolled.head.trim().is_empty() {
-            let head = numbered(self, unrolled.head.trim());
-            self.line(head.as_bytes(), origin);
-        }
-        for block in unrolled.moves.iter().flat_map(|text| text.lines()) {
-            let block = numbered(self, block);
-            self.line(block.as_bytes(), origin);
+    /// What remains of a block, and its moves; each with `front`, what stands before the words of a block.
+    fn lines(&mut self, front: &Front, unrolled: &cycles::Unrolled, origin: Origin) {
+        let head = Some(unrolled.head.trim()).filter(|head| !head.is_empty());
+        for block in head.into_iter().chain(unrolled.moves.iter().flat_map(|text| text.lines())) {
+            let block = [front.text(self.number).as_bytes(), block.as_bytes()].concat();
+            self.line(&block, origin);
         }
     }
 
@@ -242,9 +262,10 @@ impl Flat<'_> {
     fn cycle(
         &mut self,
         program: &Program,
-        line: &Range<usize>,
-        words: &Words,
+        line: Range<usize>,
         told: &Told,
+        numbers: &Edits,
+        front: &Front,
     ) -> bool {
         let control = program.dialect().control;
         let text = String::from_utf8_lossy(&program.source()[line.clone()]).to_ascii_uppercase();
@@ -253,21 +274,22 @@ impl Flat<'_> {
             self.line(format!("; {}", text.trim()).as_bytes(), told.origin);
             return true;
         }
-        // What is computed in the block has no number in its text.
-        if !told.computed.is_empty() {
+        if told.moves.len() < 2 {
             return false;
         }
-        let Some(mut cycle) = cycles::unrolled(program, line, words, &told.moves, self.modes)
-        else {
+        // The block with numbers for what it computes.
+        let text = numbers.clone().applied(program.source(), line);
+        let block = Program::new(program.file(), text, control);
+        let words = Words::read(block.source(), block.dialect(), 0..block.source().len());
+        let Some(mut cycle) = cycles::unrolled(&block, &words, &told.moves, self.modes) else {
             return false;
         };
         if control == Control::Sinumerik840d && self.after_cycle && words.motion.is_none() {
             // A further call is reached with the motion code from before the cycle.
-            let at = (words.front - line.start).min(cycle.head.len());
             let code = told.moves.first().and_then(cycles::motion_code).unwrap_or_default();
-            cycle.head.insert_str(at, code);
+            cycle.head.insert_str(0, code);
         }
-        self.lines(control, &cycle, told.origin);
+        self.lines(front, &cycle, told.origin);
         self.after_cycle = true;
         true
     }
@@ -287,20 +309,6 @@ impl Flat<'_> {
             }
             self.after_cycle = false;
         }
-    }
-
-    /// What stands before the words of a block: `/`, and in Klartext the number.
-    fn front(&self, program: &Program, line: &Range<usize>) -> Vec<u8> {
-        let words = Words::read(program.source(), program.dialect(), line.clone());
-        let mut front = String::new();
-        let klartext = program.dialect().control == Control::Heidenhain;
-        if klartext && words.front > line.start {
-            front = format!("{} ", self.number);
-        }
-        if let Some(skip) = words.skip {
-            front += &String::from_utf8_lossy(&program.source()[skip]);
-        }
-        front.into_bytes()
     }
 
     fn line(&mut self, text: &[u8], origin: Origin) {
@@ -373,13 +381,14 @@ fn number(value: f64, source: &[u8], at: usize, program: &Program) -> String {
     }
 }
 
-/// The line of the second program where it begins to do something else than the first.
+/// The line of the second program where it begins to do something else than the first, and its error if it has
+/// one there.
 fn differs(
     mounted: &Machine,
     [a, b]: [&Program; 2],
     setup: &SetUp,
     contour: Contour,
-) -> Option<u32> {
+) -> Option<(u32, Option<String>)> {
     std::thread::scope(|scope| {
         let (to, from) = sync_channel::<Vec<Step>>(4);
         scope.spawn(move || {
@@ -403,8 +412,11 @@ fn differs(
                 found = Some(origin.line);
             }
         });
-        let ends_early = expected.next().is_some() || outcome.problems.has_errors();
-        found.or(ends_early.then_some(last))
+        if let Some(error) = outcome.problems.iter().find(|d| d.severity == Severity::Error) {
+            return Some((error.place.line as u32, Some(error.message.clone())));
+        }
+        let ends_early = expected.next().is_some();
+        found.or(ends_early.then_some(last)).map(|line| (line, None))
     })
 }
 

@@ -16,15 +16,16 @@ pub(super) struct Unrolled {
     pub moves: Vec<String>,
 }
 
-/// The moves of a cycle as plain blocks; `None` if the block is no cycle, or one that has no plain words.
+/// The moves of a cycle as plain blocks; `None` if `program`, a block alone, is no cycle, or one that has no
+/// plain words.
 pub(super) fn unrolled(
     program: &Program,
-    line: &Range<usize>,
     words: &Words,
     moves: &[Move],
     modes: Modes,
 ) -> Option<Unrolled> {
     let control = program.dialect().control;
+    let line = &(0..program.source().len());
     if moves.len() < 2 || words.reference || words.machine.is_some() {
         return None;
     }
