@@ -17,7 +17,7 @@ use trueaxis::machine::Machine;
 use trueaxis::machine::file::NoTables;
 use trueaxis::nc::{Control, Program};
 use trueaxis::post::post;
-use trueaxis::simulate::{Batch, Densify, Observer, Options, SetUp, simulate};
+use trueaxis::simulate::{Batch, Densify, Observer, Options, SetUp, SetUpTool, simulate};
 use trueaxis::writer::TipWords;
 
 fn name(control: Control) -> &'static str {
@@ -525,4 +525,37 @@ fn a_tool_length_that_matters_is_stated_by_somebody() {
     // A length of 0 that is stated is a length.
     assert_eq!(refused(&head_mill(length), tcp, 1e-3), None);
     assert_eq!(refused(&head_mill("").with_tip(Vec3::new(0.0, 0.0, -50.0)), tcp, 1e-3), None);
+}
+
+#[test]
+fn a_length_that_is_not_on_is_named_where_the_proof_fails() {
+    let mill = head_mill("[tool]\nlength = \"90 mm\"\n");
+    let tool = |length: f64| SetUpTool {
+        tip_mm: Vec3::new(0.0, 0.0, -length),
+        diameter_mm: Some(10.0),
+        ..SetUpTool::default()
+    };
+    let setup = SetUp {
+        tools: [(1, tool(90.0)), (2, tool(60.0))].into_iter().collect(),
+        ..SetUp::default()
+    };
+    let told = |text: &str, setup: &SetUp| {
+        let program = Program::new("p.nc", text.as_bytes().to_vec(), Control::Fanuc);
+        let done = compensate_program(&mill, &program, setup, &ProgramOptions::default());
+        let Some(rewritten) = done.0 else { panic!("{text} {:?}", done.1) };
+        let found = rewritten.unproved.iter().find(|d| d.code == "other-tool-length");
+        assert_eq!(found.is_none(), rewritten.is_proved(), "{text}");
+        found.map(|d| (d.place.line, d.message.clone()))
+    };
+    let cut = "G21 G90 G17 G94\nT1 M6\nG0 X5 Y0\n(on)\nG0 Z5\nG1 Z0 F1000\nX10\nG0 Z50\nM30\n";
+    // The rapids before it need no length.
+    assert_eq!(told(&cut.replace("(on)", "G43 H1"), &setup), None);
+    let (line, message) = told(cut, &setup).expect("no length is on");
+    assert_eq!(line, 6);
+    assert!(message.contains("90 mm long") && message.contains("no tool length"), "{message}");
+    let (line, message) = told(&cut.replace("(on)", "G43 H2"), &setup).expect("that of another");
+    assert_eq!(line, 6);
+    assert!(message.contains("90 mm long") && message.contains("is 60 mm"), "{message}");
+    // As the hint says.
+    assert_eq!(told(cut, &SetUp::default()), None);
 }

@@ -541,6 +541,9 @@ impl Rewritten {
             let message = format!("read back, the tip leaves its path by {left} µrad");
             off(if tip.value > residual { tip.line } else { axis.line }, message, hint);
         }
+        if let Some(other) = self.found.other_length.filter(|_| found.iter().next().is_some()) {
+            other.tell(file, &mut found);
+        }
         if proof.issues.is_critical() {
             let message = "in the compensated program an axis leaves its travel".to_owned();
             let hint = "move the part; simulate shows the block";

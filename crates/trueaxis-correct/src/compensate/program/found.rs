@@ -3,6 +3,7 @@
 use super::block::Block;
 use super::computed::Expression;
 use super::correct::Corrected;
+use super::length::OtherLength;
 use super::stand::{Sample, Stand};
 use std::collections::BTreeMap;
 use trueaxis_geometry::Vec3;
@@ -58,6 +59,8 @@ pub struct Found {
     pub undecided: u64,
     /// Cuts that begin where no corrected word leads, by their lines: the proof leaves their ways out.
     pub begins_elsewhere: Vec<u32>,
+    /// The first cut in which the control counts with another length than that of the tool.
+    pub(super) other_length: Option<OtherLength>,
     /// Blocks that stay as they are, by reason.
     pub left: BTreeMap<&'static str, u64>,
     /// Places where the tool axis keeps its deviation, by reason.

@@ -10,6 +10,62 @@ use trueaxis_motion::SetUp;
 /// Tools are taken to differ by so much whose length is not stated, mm.
 const LENGTH_MM: f64 = 100.0;
 
+/// The tool length that the program has switched on, and the tool that is in the spindle.
+#[derive(Debug, Default)]
+pub(super) struct Lengths {
+    on: Vec3,
+    tool: Option<u32>,
+    /// The program or the set-up gave the control a tool length.
+    pub is_stated: bool,
+}
+
+impl Lengths {
+    pub fn switch_on(&mut self, length: Vec3) {
+        self.on = length;
+        self.is_stated |= length != Vec3::zeros();
+    }
+
+    pub fn change_tool(&mut self, number: u32) {
+        self.tool = Some(number);
+    }
+
+    /// What the control counts with in a cut of this line, where a tool of the set-up is in the spindle that has another length.
+    pub fn other(&self, mounted: &Machine, residual_mm: f64, line: u32) -> Option<OtherLength> {
+        let tool = self.tool?;
+        let length = -mounted.tip_mm();
+        let differs = (self.on - length).norm() > residual_mm;
+        differs.then_some(OtherLength { line, tool, on_mm: self.on.z, length_mm: length.z })
+    }
+}
+
+/// A cut in which the control counts with another length than that of the tool.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct OtherLength {
+    line: u32,
+    tool: u32,
+    on_mm: f64,
+    length_mm: f64,
+}
+
+impl OtherLength {
+    /// Told where the proof fails: the tip cannot be where the program says.
+    pub fn tell(&self, file: &str, found: &mut Diagnostics) {
+        let Self { line, tool, on_mm, length_mm } = self;
+        let message = match *on_mm == 0.0 {
+            true => {
+                format!("T{tool} is {length_mm} mm long in the set-up; no tool length is on here")
+            }
+            false => format!(
+                "T{tool} is {length_mm} mm long in the set-up; the length that is on here is {on_mm} mm"
+            ),
+        };
+        let hint = "switch its length on (G43 H); if the work offset contains the length, leave [tool.N] out of the \
+                    set-up: the tool of the machine file is taken";
+        let place = Place { file: file.to_owned(), line: *line as usize, column: 1 };
+        found.warn("other-tool-length", place, message, hint);
+    }
+}
+
 /// The control's warning of a tool that it does not know.
 const UNLISTED: &str = "unknown-tool-length";
 
@@ -26,7 +82,7 @@ pub(super) fn require(
         return;
     }
     let unlisted = problems.iter().find(|d| d.code == UNLISTED).map(|d| d.place.clone());
-    let followed = walk.tip_followed.filter(|_| setup.tools.is_empty() && !walk.length_stated);
+    let followed = walk.tip_followed.filter(|_| setup.tools.is_empty() && !walk.lengths.is_stated);
     let at_line = |line: u32| Place { file: file.to_owned(), line: line as usize, column: 1 };
     let Some(place) = unlisted.or(followed.map(at_line)) else { return };
     let why = match walk.tip_followed {

@@ -9,6 +9,7 @@ use super::computed::{Computed, free_locals};
 use super::correct::Corrector;
 use super::found::{Found, Want};
 use super::guard;
+use super::length::Lengths;
 use super::line_table::LineTable;
 use super::number::{Grid, Of, Unit};
 use super::ready::Ready;
@@ -18,6 +19,7 @@ use super::text::{Edits, Modes, Text};
 use super::turns::Stop;
 use super::words::Words;
 use super::{ProgramOptions, residual_of_pieces, residual_share};
+use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_motion::axis_path::{AxisPath, Fault};
@@ -48,8 +50,8 @@ pub(super) struct Walk<'w> {
     vectors: bool,
     /// The line that first switched tool-centre-point control on.
     pub tip_followed: Option<u32>,
-    /// The program or the set-up gave the control a tool length.
-    pub length_stated: bool,
+    /// The tool length that is on, and the tool.
+    pub lengths: Lengths,
     /// The program adds a radius that is not 0 to its contour.
     pub radius_added: bool,
     /// What blocks compute.
@@ -116,7 +118,7 @@ impl<'w> Walk<'w> {
             last: None,
             vectors: false,
             tip_followed: None,
-            length_stated: false,
+            lengths: Lengths::default(),
             radius_added: false,
             computed: Computed::of(control),
             locals: free_locals(source, control).into(),
@@ -179,6 +181,7 @@ impl<'w> Walk<'w> {
         match event {
             Event::ToolChange(number) => {
                 if let Some(tool) = self.setup.tools.get(number) {
+                    self.lengths.change_tool(*number);
                     let machine = self.machine.clone().with_tip(tool.tip_mm);
                     let next = corrector(&machine, self.options, origin)?;
                     self.corrector = next.with_history_of(&self.corrector);
@@ -208,7 +211,9 @@ impl<'w> Walk<'w> {
             Event::Compensation { side, radius_mm } => {
                 self.radius_added |= *side != CompensationSide::Off && *radius_mm != 0.0;
             }
-            Event::ToolLength(length) => self.length_stated |= length.0.iter().any(|l| *l != 0.0),
+            Event::ToolLength(length) => {
+                self.lengths.switch_on(Vec3::new(length.0[0], length.0[1], length.0[2]));
+            }
             _ => {}
         }
         Ok(())
@@ -225,6 +230,11 @@ impl<'w> Walk<'w> {
             nodes: &nodes[ahead.nodes.clone()],
             first: ahead.nodes.start,
         };
+        if self.found.other_length.is_none() && m.kind != MoveKind::Rapid {
+            let mounted = self.corrector.machine();
+            self.found.other_length =
+                self.lengths.other(mounted, self.options.residual_mm, m.origin.line);
+        }
         // Words of rotary axes take over from vectors.
         self.vectors = m.direction.is_some() || self.vectors && !m.named.has_rotary();
         let lead = (m.kind == MoveKind::Rapid).then_some(ahead.lead);
