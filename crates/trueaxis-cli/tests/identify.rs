@@ -444,3 +444,49 @@ fn circles_and_targets_that_mislead_are_refused() {
 fn number(value: &serde_json::Value) -> f64 {
     value.as_f64().expect("a number")
 }
+
+/// A row of readings a thousandth as large, as millimetres under a heading in micrometres are.
+fn as_millimetres(line: &str) -> String {
+    let cells: Vec<&str> = line.split(',').collect();
+    let small = |cell: &str| format!("{:.7}", cell.parse::<f64>().expect("a number") * 1e-3);
+    match cells[..] {
+        [c, a, x, y, z, ref read @ .., group] if c.parse::<f64>().is_ok() => {
+            let read: Vec<String> = read.iter().map(|cell| small(cell)).collect();
+            [c, a, x, y, z, &read.join(","), group].join(",")
+        }
+        _ => line.to_owned(),
+    }
+}
+
+#[test]
+fn readings_below_their_noise_are_not_explained() {
+    let folder = Folder::new("identify-below-noise");
+    // Millimetres under a heading in µm leave a residual that is too good.
+    let campaign = with_readings(&folder, |_, line| as_millimetres(line));
+    let ran = trueaxis(&["identify", &campaign, "--format", "json"]);
+    assert_eq!(ran.status, 1, "{}", ran.err);
+    assert_eq!(ran.json()["verdict"]["key"], "below-noise");
+    assert_eq!(ran.json()["verdict"]["good"], false);
+    let shown = trueaxis(&["identify", &campaign]);
+    assert!(shown.out.contains("of the noise: another unit"), "{}", shown.out);
+}
+
+#[test]
+fn an_instrument_that_contradicts_the_others_is_not_explained() {
+    let folder = Folder::new("identify-contradicts");
+    let examples = root().join("examples/05_identify");
+    let text =
+        std::fs::read_to_string(examples.join("mixed-instruments.toml")).expect("a campaign");
+    let mut text = text.replace("../../machines", &root().join("machines").display().to_string());
+    for name in ["r-test.csv", "ball-bar.csv", "laser-x.csv"] {
+        text = text.replace(name, &examples.join(name).display().to_string());
+    }
+    let plain = folder.file("plain.toml", text.clone());
+    assert_eq!(trueaxis(&["identify", &plain]).status, 0);
+    // All three channels the other way round: their residual alone is the same.
+    let turned = folder.file("turned.toml", text.replace("reads = \"ball\"", "reads = \"tool\""));
+    let ran = trueaxis(&["identify", &turned, "--format", "json"]);
+    assert_eq!(ran.status, 1, "{}", ran.err);
+    assert_eq!(ran.json()["verdict"]["key"], "instruments-contradict");
+    assert!(ran.err.contains("conflicting-instruments"), "{}", ran.err);
+}

@@ -187,6 +187,20 @@ fn a_prediction_is_a_machine_file_whose_uncertainty_knows_what_is_separable() {
         "{text}"
     );
     assert!(text.contains("# scored over X ") && text.contains("without compensation: "), "{text}");
+    // One of its errors alone can't be replaced.
+    let on_it = std::fs::read_to_string(&campaign).expect("a campaign");
+    let machine = on_it.lines().find(|l| l.starts_with("machine")).expect("a machine");
+    let path = folder.path("on-it.toml");
+    let text = on_it.replace(machine, &format!("machine = {file:?}"));
+    std::fs::write(&path, text).expect("a campaign");
+    let on_it = path;
+    let refused = trueaxis(&["identify", &on_it, "-o", &folder.path("single.toml")]);
+    assert_eq!(refused.status, 2, "{}", refused.err);
+    assert!(
+        refused.err.contains("known together") && refused.err.contains("--predictor"),
+        "{}",
+        refused.err
+    );
     let place = "X=850 Y=450 Z=150 B=20 C=45";
     let first = tip_um(&file, place);
     // Another order of the rows, and another unit.

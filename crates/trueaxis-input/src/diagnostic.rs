@@ -98,6 +98,9 @@ impl fmt::Display for Diagnostic {
     }
 }
 
+/// Diagnostics within which one that is found again is the same.
+const SOON: usize = 32;
+
 /// A collection of problems, so that all of them are reported in one run.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Diagnostics(Vec<Diagnostic>);
@@ -154,7 +157,10 @@ impl Diagnostics {
                 *text = shorter;
             }
         }
-        self.0.push(diagnostic);
+        // An entry that two readers need is wrong once.
+        if !self.0.iter().rev().take(SOON).any(|before| *before == diagnostic) {
+            self.0.push(diagnostic);
+        }
     }
 
     /// Whether one of them is an error, so that the input cannot be used.

@@ -560,9 +560,15 @@ fn every_fault_of_a_material_is_reported() {
         let asked = Asked { laser: plain.laser.replace(MATERIAL, &laser), ..plain.clone() };
         let (read, problems) = asked.read(&folder);
         let codes: Vec<_> = problems.iter().map(|d| d.code).collect();
-        assert!(read.is_none() && codes.contains(&code), "{laser}: {codes:?}");
+        // An error makes no others: neither in the paths of the laser nor in what follows it.
+        assert!(read.is_none() && codes == [code], "{laser}: {codes:?}");
         assert!(problems.iter().all(|d| d.place.line > 0), "{problems:?}");
     }
+    let misspelt = plain.temperature.replace("workpiece = ", "werkstueck = ");
+    let (_, problems) = Asked { temperature: misspelt, ..plain.clone() }.read(&folder);
+    // The sensor itself has no temperature then.
+    let codes: Vec<_> = problems.iter().map(|d| d.code).collect();
+    assert_eq!(codes, ["unknown-sensor", "missing-sensor"]);
     // A sensor without a temperature, another instrument, a machine without a workpiece.
     let cold = plain.temperature.replace("workpiece = \"30.8 degC\"", "");
     let (_, problems) = Asked { temperature: cold, ..plain.clone() }.read(&folder);

@@ -39,7 +39,7 @@ impl Solved {
     }
 }
 
-/// Warns of the instrument that contradicts the others most.
+/// Warns of the instrument that contradicts the others most, and says which one it is.
 ///
 /// `z` are the readings, linear about the solution.
 pub fn check_conflicts(
@@ -48,10 +48,10 @@ pub fn check_conflicts(
     z: &[[f64; 3]],
     place: &Place,
     problems: &mut Diagnostics,
-) {
+) -> Option<String> {
     let count = design.instruments.len();
     if count < 2 {
-        return;
+        return None;
     }
     let own: Vec<Sums> = (0..count)
         .map(|k| {
@@ -80,7 +80,7 @@ pub fn check_conflicts(
             worst = Some((ratio, k, one, others));
         }
     }
-    let Some((_, k, one, others)) = worst else { return };
+    let (_, k, one, others) = worst?;
     let apart = one.chi_square + others.chi_square;
     let message = format!(
         "{} contradicts the others: χ² is {:.0} together and {apart:.0} apart{}",
@@ -90,6 +90,7 @@ pub fn check_conflicts(
     );
     let hint = "look at its sign, unit, place and temperature (--check-conventions), or at drift";
     problems.warn("conflicting-instruments", place.clone(), message, hint);
+    Some(design.instruments[k].name.clone())
 }
 
 /// The error that both see and that differs most.

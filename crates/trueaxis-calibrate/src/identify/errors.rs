@@ -36,6 +36,8 @@ use trueaxis_measure::unknowns::unlisted::Follows;
 
 /// The residual from which on the conventions are checked unasked, in units of the noise.
 const SUSPICIOUS: f64 = 5.0;
+/// Readings that fit to a smaller part of the noise without any error of the machine have another unit, or another noise.
+const BELOW_NOISE: f64 = 0.1;
 
 /// An unknown and what was found of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,6 +102,10 @@ pub enum Verdict {
     Unexplained,
     /// A stage contradicts the stages before it; its name.
     StagesContradict(String),
+    /// An instrument contradicts the others; its name.
+    InstrumentsContradict(String),
+    /// Without any error of the machine the readings keep to this part of the noise.
+    BelowNoise(f64),
 }
 
 impl Verdict {
@@ -156,6 +162,13 @@ impl Verdict {
             Self::StagesContradict(stage) => format!(
                 "stage `{stage}` contradicts what was known before: the result is a mean of two set-ups"
             ),
+            Self::InstrumentsContradict(name) => format!(
+                "instrument `{name}` contradicts the others: the result is a mean of what both say"
+            ),
+            Self::BelowNoise(part) => format!(
+                "without any error of the machine the readings already fit to {part:.3} of the noise: another \
+                 unit than the heading says, or `noise` is stated far too large"
+            ),
         }
     }
 
@@ -172,6 +185,8 @@ impl Verdict {
             Self::GrossReadings(_) => "gross-readings",
             Self::Unexplained => "unexplained",
             Self::StagesContradict(_) => "stages-contradict",
+            Self::InstrumentsContradict(_) => "instruments-contradict",
+            Self::BelowNoise(_) => "below-noise",
         }
     }
 }
@@ -257,11 +272,12 @@ pub fn identify(
     }
     let (sequence, whole, options) = through_stages(campaign, whole, options, records, problems)?;
     let identified = Work::of(whole, records, &options, parts).and_then(|work| {
-        check_conflicts(&work.whole, readings, &work.z, &place, problems);
-        work.identification(campaign, &options, places)
+        let other = check_conflicts(&work.whole, readings, &work.z, &place, problems);
+        Ok((work.identification(campaign, &options, places)?, other))
     });
     match identified {
-        Ok(mut found) => {
+        Ok((mut found, other)) => {
+            found.verdict = doubted(found.verdict, other, &found.score);
             found.sequence = sequence.map(|mut sequence| {
                 let values: Vec<Value> = found.found.iter().map(|f| f.value).collect();
                 compare(&mut sequence, &values, &place, problems);
@@ -279,6 +295,16 @@ pub fn identify(
             tell_fault(&fault, records, &place, problems);
             None
         }
+    }
+}
+
+/// Readings that can't be right are not explained, however well a model fits them.
+fn doubted(verdict: Verdict, contradicting: Option<String>, score: &Score) -> Verdict {
+    match contradicting {
+        // A machine without errors would leave the whole noise.
+        _ if score.before.noise < BELOW_NOISE => Verdict::BelowNoise(score.before.noise),
+        Some(instrument) if verdict.is_good() => Verdict::InstrumentsContradict(instrument),
+        _ => verdict,
     }
 }
 
@@ -400,7 +426,7 @@ impl<'a> Work<'a> {
         let determined = adequacy.explained.listed.clone();
         let influences = influences(design, readings, &self.weights, &self.fit);
         let left_out = self.candidates.maybe.iter().filter(|k| !self.numbers.contains(k));
-        let suspicious = score.in_sample.noise > SUSPICIOUS;
+        let suspicious = score.in_sample.noise > SUSPICIOUS || score.before.noise < BELOW_NOISE;
         let unobservable = |c: &Confusion| Unobservable::of(campaign, &self.whole, c);
         Ok(Identification {
             found: found(design, &determined, &adequacy.explained.degrees_of_freedom),

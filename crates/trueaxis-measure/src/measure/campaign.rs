@@ -142,7 +142,11 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Campaign> {
             let mut problems = Diagnostics::new();
             let warm = machine.at(conditions, &mut problems);
             root.take_over(problems);
-            warm?
+            let Some(warm) = warm else {
+                root.entries();
+                return None;
+            };
+            warm
         }
     };
     let terms = root.section("unknown", |s| read_unknown(s, &machine)).unwrap_or_default();
@@ -152,16 +156,25 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Campaign> {
     let assumes = root.get("stage").is_none() && root.get("prior").is_none();
     let mut instruments = Vec::new();
     let mut tables = Vec::new();
+    let mut all_read = true;
     root.section("instrument", |section| {
         for (key, _, item) in section.entries().into_iter().take(MOST_INSTRUMENTS) {
             let warm = (&machine, conditions.as_ref());
             let read = |s: &Section<'_>| read_instrument(s, key, warm, (folder, assumes));
-            if let Some((instrument, files)) = item.section(&section.path(key), read).flatten() {
-                instruments.push(instrument);
-                tables.push(files);
+            match item.section(&section.path(key), read).flatten() {
+                Some((instrument, files)) => {
+                    instruments.push(instrument);
+                    tables.push(files);
+                }
+                None => all_read = false,
             }
         }
     });
+    // What names an instrument that could not be read is no error of its own.
+    if !all_read {
+        root.entries();
+        return None;
+    }
     let bare = Design::new(&machine, terms.clone(), instruments.clone());
     let mut list = read_stages(root, &bare, path);
     let prior = read_prior_file(root, &bare, folder);

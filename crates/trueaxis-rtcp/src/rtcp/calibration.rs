@@ -96,6 +96,13 @@ impl Calibration {
         self.birge == 1.0 && self.offsets.iter().any(|o| o.found_mm.is_some())
     }
 
+    /// The residual as a part of the noise, √(χ²/ν), where it is far smaller: then the unit or the noise is wrong.
+    pub fn below_noise(&self) -> Option<f64> {
+        let freedom = self.degrees_of_freedom as f64;
+        let part = (self.chi_square / freedom.max(1.0)).sqrt();
+        (freedom >= 5.0 && part < 0.1).then_some(part)
+    }
+
     /// Whether every offset was found.
     pub fn is_complete(&self) -> bool {
         self.offsets.iter().all(|o| o.found_mm.is_some())

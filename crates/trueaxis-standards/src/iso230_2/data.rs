@@ -1,6 +1,7 @@
 //! The readings of a positioning test: columns of a table to targets, runs and directions.
 
 use std::collections::HashMap;
+use std::f64::consts::TAU;
 use trueaxis_geometry::AxisKind;
 use trueaxis_input::sheet::{Cells, Column, Sheet, heading};
 use trueaxis_input::{Diagnostics, Dimension, Unit};
@@ -265,6 +266,15 @@ impl Deviations<'_> {
         self.dimension.unwrap_or(Measurement::dimension(self.kind))
     }
 
+    /// Actual − target; of a rotary axis the short way, as encoders begin again at 360°.
+    fn less_target(&self, actual: f64, target: f64) -> f64 {
+        let off = actual - target;
+        match self.kind {
+            AxisKind::Rotary => off - TAU * (off / TAU).round(),
+            AxisKind::Linear => off,
+        }
+    }
+
     /// Actual positions are those of the axis itself.
     fn has_actual(&self, sheet: &Sheet, problems: &mut Diagnostics) -> bool {
         let is_own = self.dimension() == Measurement::dimension(self.kind);
@@ -289,7 +299,8 @@ fn deviations(
         (None, Some(_)) if !read.has_actual(sheet, problems) => None,
         (None, Some(column)) => {
             let actual = sheet.inner(column, dimension, problems)?;
-            Some(actual.iter().zip(read.positions).map(|(a, t)| a - t).collect())
+            let each = actual.iter().zip(read.positions);
+            Some(each.map(|(a, t)| read.less_target(*a, *t)).collect())
         }
         (found, _) => {
             let (code, message) = match found {
@@ -351,7 +362,7 @@ fn wide(
             if value.is_nan() {
                 continue;
             }
-            let deviation = if actual { value - position } else { value };
+            let deviation = if actual { read.less_target(value, *position) } else { value };
             readings.push(Reading { run, deviation });
         }
     }
@@ -376,6 +387,23 @@ mod tests {
         let arc = read_ok("target_deg,direction,deviation_arcsec\n90,down,3600\n");
         assert_eq!(arc.kind, AxisKind::Rotary);
         assert!((arc.targets[0].down[0].deviation.to_degrees() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn an_encoder_that_begins_again_at_360_degrees_reads_the_short_way() {
+        let deg = |text: &str| {
+            let read = read_ok(&format!("target_deg,direction,actual_deg\n{text}\n"));
+            read.targets[0].up[0].deviation.to_degrees()
+        };
+        let cases = [("0,up,359.999", -1e-3), ("360,up,0.002", 2e-3), ("-90,up,270.001", 1e-3)];
+        for (text, wanted) in cases {
+            assert!((deg(text) - wanted).abs() < 1e-9, "{text}: {}", deg(text));
+        }
+        let wide = read_ok("target_deg,actual_up_1_deg\n0,359.999\n");
+        assert!((wide.targets[0].up[0].deviation.to_degrees() + 1e-3).abs() < 1e-9);
+        // A linear axis has no turns.
+        let mm = read_ok("target_mm,direction,actual_mm\n0,up,359.999\n");
+        assert_eq!(mm.targets[0].up[0].deviation, 359.999);
     }
 
     #[test]

@@ -231,6 +231,23 @@ fn machine_files(
     output: &Path,
     problems: &mut Diagnostics,
 ) -> Option<Vec<NewFile>> {
+    let campaign = &identified.campaign;
+    if let Some(joint) = campaign.machine.joint()
+        && let Some(term) = campaign.terms.iter().find(|term| joint.has(term.index))
+    {
+        let error = term.error;
+        let message = format!(
+            "{error} of the machine file is known together with other errors, by their covariance: a new value alone contradicts it"
+        );
+        let hint = "write the prediction by all errors, --predictor NEW.toml, or begin from the machine file before it";
+        problems.error(
+            "unwritable-file",
+            Place::whole(&output.display().to_string()),
+            message,
+            hint,
+        );
+        return None;
+    }
     let made = identified.machine_file(output);
     let made = made.map_err(|reason| refuse(output, &reason, problems)).ok()?;
     let table =

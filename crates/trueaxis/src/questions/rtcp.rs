@@ -65,6 +65,13 @@ impl Question for IdentifyRtcp {
                 return None;
             }
         };
+        if let Some(part) = found.below_noise() {
+            let message =
+                format!("the residual is {part:.3} of the noise: no indicator reads so well");
+            let place = Place::whole(&study.path.display().to_string());
+            let hint = "are the readings mm under a heading in µm, or computed? Else state a smaller `noise`";
+            problems.warn("small-readings", place, message, hint);
+        }
         let files = match &self.output {
             Some(output) => vec![changed_machine(&files, &study, &found, output, problems)?],
             None => Vec::new(),
