@@ -94,6 +94,8 @@ pub struct SetUp {
     pub tool_places: BTreeMap<u32, Place>,
     /// Whether moves with radius compensation are those of the contour, not of the centre of the tool.
     pub on_contour: bool,
+    /// Whether optional blocks, `/`, are left out.
+    pub without_optional: bool,
     /// What codes and programs of the machine builder do, by their names in capital letters.
     pub codes: BTreeMap<String, OwnCode>,
     /// Where the set-up file states them.
@@ -455,6 +457,7 @@ impl SetUp {
             keep_going,
             radii: self.tools.iter().filter_map(|(n, t)| Some((*n, radius(t)?))).collect(),
             on_contour: self.on_contour,
+            skipped_blocks_too: !self.without_optional,
             tools: self.tools.iter().map(|(number, t)| (*number, length(t))).collect(),
             tool_names: self.tools.iter().map(|(n, t)| (t.name.clone(), *n)).collect(),
             work_offsets: self.work_offsets.clone(),
@@ -467,6 +470,12 @@ impl SetUp {
     #[must_use]
     pub fn on_contour(&self) -> Self {
         Self { on_contour: true, ..self.clone() }
+    }
+
+    /// The same, but optional blocks are left out.
+    #[must_use]
+    pub fn without_optional(&self) -> Self {
+        Self { without_optional: true, ..self.clone() }
     }
 
     /// The machine whose workpiece frame is that of the results.

@@ -9,7 +9,7 @@ use trueaxis::compensate::program::{MARK, ProgramOptions, Rewritten, compensate_
 use trueaxis::files::disk;
 use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
-use trueaxis::nc::moves::{Move, MoveKind, Origin, Step};
+use trueaxis::nc::moves::{Event, Move, MoveKind, Origin, Step};
 use trueaxis::nc::{Control, Library, Program, Settings, interpret};
 use trueaxis::simulate::SetUp;
 
@@ -329,5 +329,115 @@ fn law_cycles_with_computed_arguments_unroll_to_their_moves() {
         let (before, after) = (done.proof.before, done.proof.after);
         assert!(before.tip_end.value > 1e-3, "{name} {before:?}");
         assert!(after.tip_end.value <= 1e-9, "{name} {after:?}");
+    }
+}
+
+/// Optional blocks that lead the tool, call or jump, and what is written then goes elsewhere without them.
+const OPTIONAL: [(Control, &str); 8] = [
+    (
+        Control::Fanuc,
+        "G21 G90 G94 F500.\nG0 X100. Y100. Z-10.\nG1 Z-50.\n/ G1 X190.\nG1 Y120.\nG0 Z-10.\nM30\n",
+    ),
+    (
+        Control::LinuxCnc,
+        "G21 G90 G94 F500\nG0 X100 Y100 Z-10\nG1 Z-50\n/ X190\nY120\nG0 Z-10\nM2\n",
+    ),
+    (
+        Control::Sinumerik840d,
+        "G710 G90 G94 F500\nG0 X100 Y100 Z-10\nG1 Z-50\nR1=120\n/R1=130\nX140 Y=R1\nREPEATB A P=1\nA: X150\nM30\n",
+    ),
+    (
+        Control::Heidenhain,
+        "0 BEGIN PGM A MM\n1 L X+100 Y+100 Z-10 R0 FMAX\n2 L Z-50 F500\n/3 CALL LBL 1\n4 CALL LBL 1\n5 M30\n6 LBL 1\n7 L IX+5\n8 LBL 0\n9 END PGM A MM\n",
+    ),
+    (
+        Control::Fanuc,
+        "G21 G90 G94 F500.\nG0 X100. Y100. Z-10.\nG98 G81 X110. Y120. Z-60. R-48.\n/ X150.\nG91 X10.\nG90 G80\nM30\n",
+    ),
+    (
+        Control::Fanuc,
+        "G21 G90 G94 F500.\nG0 X100. Y100. Z-50.\n/M98 P2 L2\nG1 X150. Y150.\nM30\nO2\nG91 G1 X3. Y1.\nG90 M99\n",
+    ),
+    (
+        Control::Fanuc,
+        "G21 G90 G94 F500.\nG0 X100. Y100. Z-50.\n/GOTO 100\nG1 X150. Y150. M8\nN100 G1 X105. Y105.\nM98 P2 L2\nM30\nO2\nG91 G1 X3. Y1.\nG90 M99\n",
+    ),
+    (
+        Control::Haas,
+        "G21 G90 G94 F500.\nG0 X100. Y100. Z-50.\nN5 G1 X150.\n/N6 X190.\nN7 Y150.\nX120.\nM30\n",
+    ),
+];
+
+#[test]
+fn law_what_fits_only_with_optional_blocks_is_not_proved() {
+    let lost = with_lost_motion(&machine("three-axis-mill"), 2e-3);
+    let options = ProgramOptions { increments: None, ..ProgramOptions::default() };
+    let setup = SetUp { files: disk(), ..SetUp::default() };
+    let codes = |control: Control, text: &str| -> Option<Vec<&'static str>> {
+        let program = Program::new("p", text.as_bytes().to_vec(), control);
+        let (done, problems) = compensate_program(&lost, &program, &setup, &options);
+        assert!(done.is_some() || problems.has_errors(), "{text}");
+        Some(done?.unproved.iter().map(|d| d.code).collect())
+    };
+    for (control, text) in OPTIONAL {
+        let found = codes(control, text);
+        // Refused, or not proved for this reason.
+        assert!(found.is_none_or(|found| found == ["optional-blocks"]), "{text}");
+        // Without the marks it is proved, or refused as before.
+        let plain = text.replace("\n/ ", "\n").replace("\n/", "\n");
+        assert!(codes(control, &plain).is_none_or(|found| found.is_empty()), "{plain}");
+    }
+    // What leads nowhere else does no harm: a function, a whole pass, the end.
+    for (control, text) in [
+        (
+            Control::Fanuc,
+            "G21 G90 G94 F500.\nG0 X100. Y100. Z-50.\n/ M8\nG1 X150. Y150.\n/ M30\nM30\n",
+        ),
+        (
+            Control::Fanuc,
+            "G21 G90 G94 F500.\nG0 X100. Y100. Z-50.\nG1 X150. Y150. Z-51.\n/ G1 X160. Y160. Z-52.\nG1 X170. Y150. Z-50.\nM30\n",
+        ),
+        (
+            Control::Heidenhain,
+            "0 BEGIN PGM A MM\n1 L X+100 Y+100 Z-50 R0 FMAX\n2 L X+150 Y+150 F500\n/3 M30\n4 LBL 1\n5 LBL 0\n6 END PGM A MM\n",
+        ),
+    ] {
+        assert_eq!(codes(control, text), Some(Vec::new()), "{text}");
+    }
+}
+
+/// What a call of a cycle says besides: functions in their order, comments, the feed of what follows.
+#[test]
+fn law_functions_and_comments_of_cycles_stay() {
+    let machine = bare("three-axis-mill");
+    let klartext = |body: &str| {
+        format!(
+            "0 BEGIN PGM A MM\n1 L X+100 Y+100 Z-10 R0 FMAX\n2 L Z-30 F500\n3 CYCL DEF 200 Q200=2 Q201=-9 Q206=150 Q202=5 Q210=0 Q203=-40 Q204=20 Q211=0\n{body}\n9 M30\n10 END PGM A MM\n"
+        )
+    };
+    for (control, name, text, wanted) in [
+        (Control::Heidenhain, "m.h", klartext("4 L X+110 FMAX\n5 CYCL CALL M8 ; first\n6 CYCL DEF 9.0 DWELL\n7 CYCL DEF 9.1 DWELL 1\n8 L X+120"), &["M8", "; first", "F500"][..]),
+        (Control::Heidenhain, "n.h", klartext("4 L X+110 FMAX\n5 CYCL CALL M9\n6 L X+120"), &["M9"]),
+        (Control::Sinumerik840d, "m.mpf", "G710 G90 F500\nG0 X100 Y100 Z-30\nCYCLE82(-30,-40,2,-50,,0.5) ; reamed\nG0 Z-30\nM30\n".to_owned(), &["; reamed"]),
+        (Control::Fanuc, "inch.nc", "G20 G90 G94 F20.\nG0 X4. Y4. Z-1.\nG98 G83 X4.1 Y4.1 Z-2.05 R-1.3 Q.1 F10.\nG80\nM30\n".to_owned(), &["X4.1"]),
+    ] {
+        let program = program(control, name, &text);
+        let events = |program: &Program| {
+            let mut functions = Vec::new();
+            let outcome = interpret(program, &Beside, &Settings::default(), &mut |step| match step {
+                Step::Move(m) => functions.push(format!("{:?} {:.6?}", m.kind, m.target.0)),
+                Step::Event(Event::Coolant(coolant), _) => functions.push(format!("{coolant:?}")),
+                Step::Event(..) => {}
+            });
+            assert!(outcome.finished, "{:?}", outcome.problems);
+            functions
+        };
+        let (done, problems) = flat(&machine, &program);
+        let Some(done) = done else { panic!("{name}: {problems:?}") };
+        let new = String::from_utf8(done.text.into_vec()).unwrap();
+        let unrolled = Program::new(name, new.clone().into_bytes(), control);
+        assert_eq!(events(&program), events(&unrolled), "{name}:\n{new}");
+        assert!(wanted.iter().all(|word| new.contains(word)), "{name}:\n{new}");
+        assert!(!new.contains("CYCL CALL") && !new.contains("G83 "), "{name}:\n{new}");
     }
 }

@@ -21,6 +21,7 @@ mod length;
 mod line_table;
 mod lines;
 mod number;
+mod optional;
 mod options;
 mod radius;
 mod ready;
@@ -125,6 +126,12 @@ pub fn compensate_program_with(
         }
     };
     let (mut done, problems) = compensated(machine, program, setup, (options, &grows));
+    let marked = optional::first(program).filter(|_| !setup.without_optional);
+    if let (Some(done), Some(line)) = (done.as_mut().filter(|done| done.is_proved()), marked) {
+        let without = &setup.without_optional();
+        let (other, _) = compensated(machine, program, without, (options, &|_| {}));
+        optional::check((machine, without), program, options, (done, other.as_ref()), line);
+    }
     if let Some(done) = &mut done {
         done.found.forget();
     }

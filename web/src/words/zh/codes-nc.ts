@@ -243,6 +243,7 @@ export const codes: Dictionary = {
   "not-correctable": "直线轴空间方向不独立",
   "not-converged": "修正迭代不收敛",
   "not-proved": "残余偏差未通过验证",
+  "optional-blocks": "跳过可选程序段时路径不同",
   "other-tool-length": "生效的刀具长度不符",
   "tool-length-needed": "未给出刀具长度",
   "turning-dynamic-offset": "G254 有效时修正转动回转轴",

@@ -158,6 +158,9 @@ impl Front {
     }
 }
 
+/// The first words of Klartext whose blocks may state a feed.
+const PATHS: [&[u8]; 10] = [b"L", b"LN", b"LP", b"C", b"CP", b"CR", b"CT", b"CTP", b"CHF", b"RND"];
+
 struct Flat<'p> {
     programs: &'p [Program],
     out: Vec<u8>,
@@ -298,6 +301,12 @@ impl Flat<'_> {
     fn restate(&mut self, program: &Program, words: &Words, told: &Told, edits: &mut Edits) {
         let ([m], true) = (&told.moves[..], self.after_cycle) else { return };
         let klartext = program.dialect().control == Control::Heidenhain;
+        // Of Klartext only the blocks of paths have a feed.
+        let first = words.motion.clone().map(|range| program.source()[range].to_ascii_uppercase());
+        let has_feed = first.is_some_and(|word| PATHS.contains(&&word[..]));
+        if klartext && !has_feed {
+            return;
+        }
         if klartext && words.feed.is_none() && m.kind != MoveKind::Rapid {
             edits.put(words.end..words.end, &format!(" F{}", cycles::klartext_feed(m, self.modes)));
             self.after_cycle = false;
@@ -405,10 +414,10 @@ fn differs(
         let mut expected = Expected { from, steps: Vec::new().into_iter(), contour };
         let (mut found, mut last) = (None, 0);
         let outcome = execute(mounted, b, setup, &setup.settings(false), &mut |step| {
-            let plain = plain(step, contour).filter(|_| found.is_none());
+            let plain = plain(step, Some(contour)).filter(|_| found.is_none());
             let Some((step, origin)) = plain else { return };
             last = origin.line;
-            if !expected.next().is_some_and(|known| is_same(&known, &step, contour)) {
+            if !expected.next().is_some_and(|known| is_same(&known, &step, ROUNDING)) {
                 found = Some(origin.line);
             }
         });
@@ -432,7 +441,7 @@ impl Expected {
         loop {
             match self.steps.next() {
                 Some(step) => {
-                    if let Some((step, _)) = plain(step, self.contour) {
+                    if let Some((step, _)) = plain(step, Some(self.contour)) {
                         return Some(step);
                     }
                 }
@@ -442,34 +451,34 @@ impl Expected {
     }
 }
 
-/// A step as if it stood nowhere; `None` for what has nothing to do with machining.
-fn plain(step: Step, contour: Contour) -> Option<(Step, Origin)> {
+/// A step as if it stood nowhere; `None` for what has nothing to do with machining, or is not there any more.
+pub(super) fn plain(step: Step, contour: Option<Contour>) -> Option<(Step, Origin)> {
     let nowhere = Origin::default();
     match step {
         Step::Move(mut m) => {
             let origin = std::mem::replace(&mut m.origin, nowhere);
             // Unrolled cycles name coordinates that do not change; the target says where it goes.
             m.named = AxisSet::default();
-            if matches!(m.kind, MoveKind::Rapid | MoveKind::Dwell { .. }) {
+            use MoveKind::{Align, Dwell, Rapid};
+            if matches!(m.kind, Rapid | Dwell { .. } | Align { .. }) {
                 // They have no feed, whatever is modal.
                 m.feed = Feed { mode: FeedMode::PerMinute, value: 0.0 };
             }
             Some((Step::Move(m), origin))
         }
         Step::Event(Event::Note(_) | Event::Log(_), _) => None,
-        Step::Event(Event::Compensation { .. }, _) if contour == Contour::Centre => None,
+        Step::Event(Event::Compensation { .. }, _) if contour == Some(Contour::Centre) => None,
         Step::Event(event, origin) => Some((Step::Event(event, nowhere), origin)),
     }
 }
 
-/// Whether two steps are the same; where centres of arcs were computed, to rounding.
-fn is_same(known: &Step, step: &Step, contour: Contour) -> bool {
-    /// What rounding makes of numbers of this size, mm and mm/min.
-    const ROUNDING: f64 = 1e-7;
-    let (Step::Move(a), Step::Move(b), Contour::Centre) = (known, step, contour) else {
-        return known == step;
-    };
-    let near = |a: f64, b: f64| (a - b).abs() < ROUNDING;
+/// What rounding makes of numbers of the size of places and feeds: inches have as many decimals as millimetres.
+const ROUNDING: f64 = 1e-7;
+
+/// Whether two steps are the same, to so many mm, degrees and mm/min.
+pub(super) fn is_same(known: &Step, step: &Step, tolerance: f64) -> bool {
+    let (Step::Move(a), Step::Move(b)) = (known, step) else { return known == step };
+    let near = |a: f64, b: f64| (a - b).abs() <= tolerance;
     let kind = match (a.kind, b.kind) {
         (MoveKind::Arc(x), MoveKind::Arc(y)) => {
             let centre = x.center_mm.iter().zip(y.center_mm).all(|(x, y)| near(*x, y));
@@ -479,5 +488,9 @@ fn is_same(known: &Step, step: &Step, contour: Contour) -> bool {
     };
     let places = a.target.0.iter().zip(b.target.0).all(|(a, b)| near(*a, b));
     let feed = a.feed.mode == b.feed.mode && near(a.feed.value, b.feed.value);
-    kind && places && feed && a.coordinates == b.coordinates && a.direction == b.direction
+    let direction = match (a.direction, b.direction) {
+        (Some(a), Some(b)) => a.iter().zip(b).all(|(a, b)| near(*a, b)),
+        (a, b) => a == b,
+    };
+    kind && places && feed && direction && a.coordinates == b.coordinates
 }

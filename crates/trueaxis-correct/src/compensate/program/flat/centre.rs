@@ -2,6 +2,7 @@
 
 use super::super::number::{Grid, Of, Unit};
 use super::super::text::Modes;
+use super::super::words::Words;
 use super::cycles::{Unrolled, head_without};
 use std::ops::Range;
 use trueaxis_nc::lexer::{Lexer, TokenKind};
@@ -10,6 +11,11 @@ use trueaxis_nc::{Control, Program};
 
 /// Codes that are written for each move, or that begin and end the compensation.
 const CODES: [f64; 10] = [0.0, 1.0, 2.0, 3.0, 40.0, 41.0, 42.0, 41.1, 42.1, 91.0];
+
+/// Codes that switch the compensation.
+const COMPENSATION: [f64; 3] = [40.0, 41.0, 42.0];
+
+const ANY_LETTER: [u8; 26] = *b"ABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
 /// The block without its contour, and its moves one by one; `None` if one of them has no plain block. `from` is
 /// where the tool is before it.
@@ -26,12 +32,17 @@ pub(super) fn written(
         blocks.push(block(m, from, control, modes)?);
         from = Some(m.target);
     }
-    let head = match control {
+    let [head, tail] = match control {
         Control::Fanuc | Control::Haas | Control::LinuxCnc => {
-            head_without(program, line, &CODES, b"STMH")
+            [head_without(program, line, &CODES, b"STMH"), String::new()]
+        }
+        Control::Sinumerik840d if moves.is_empty() => {
+            // What else a block switches stays.
+            [head_without(program, line, &COMPENSATION, &ANY_LETTER), String::new()]
         }
         Control::Sinumerik840d | Control::Heidenhain => functions(program, line),
     };
+    blocks.extend(Some(tail).filter(|tail| !tail.is_empty()));
     if modes.incremental && control != Control::Heidenhain && !blocks.is_empty() {
         blocks.insert(0, "G90".to_owned());
         blocks.push("G91".to_owned());
@@ -94,24 +105,27 @@ fn block(m: &Move, from: Option<Position>, control: Control, modes: Modes) -> Op
     })
 }
 
-/// The M functions and comments of a block.
-fn functions(program: &Program, line: &Range<usize>) -> String {
+/// The M functions and comments of a block, and the M functions that act when it has been travelled.
+pub(super) fn functions(program: &Program, line: &Range<usize>) -> [String; 2] {
     let source = program.source();
+    let at_end = Words::read(source, program.dialect(), line.clone()).at_end;
     let tokens: Vec<_> = Lexer::new(source, program.dialect(), line.start)
         .take_while(|t| t.start < line.end && t.kind != TokenKind::LineEnd)
         .filter(|t| t.kind != TokenKind::Space)
         .collect();
-    let mut kept = Vec::new();
+    let mut kept = [const { Vec::new() }; 2];
     for (i, token) in tokens.iter().enumerate() {
-        let text = String::from_utf8_lossy(&source[token.start..token.end.min(line.end)]);
+        let text = |to: usize| String::from_utf8_lossy(&source[token.start..to]).into_owned();
+        let is_m = text(token.end).eq_ignore_ascii_case("M");
         let number = tokens.get(i + 1).filter(|t| t.kind == TokenKind::Number);
         match (token.kind, number) {
-            (TokenKind::Comment, _) => kept.push(text.into_owned()),
-            (TokenKind::Letter, Some(number)) if text.eq_ignore_ascii_case("M") => {
-                kept.push(String::from_utf8_lossy(&source[token.start..number.end]).into_owned());
+            (TokenKind::Comment, _) => kept[0].push(text(token.end.min(line.end))),
+            (TokenKind::Letter, Some(number)) if is_m => {
+                let is_last = at_end.iter().any(|range| range.start == token.start);
+                kept[usize::from(is_last)].push(text(number.end));
             }
             _ => {}
         }
     }
-    kept.join(" ")
+    kept.map(|words| words.join(" "))
 }

@@ -3,6 +3,7 @@
 use super::super::number::{Grid, Of, Unit};
 use super::super::text::{Edits, Modes};
 use super::super::words::Words;
+use super::centre::functions;
 use std::ops::Range;
 use trueaxis_nc::lexer::{Lexer, TokenKind};
 use trueaxis_nc::moves::{Axis, Coordinates, FeedMode, Move, MoveKind, Position};
@@ -40,7 +41,8 @@ pub(super) fn unrolled(
     let starts = std::iter::once(None).chain(cycle.iter().map(|m| Some(m.target)));
     let texts = cycle.iter().zip(starts).map(|(m, from)| block(m, from, control, modes));
     let mut blocks = texts.collect::<Option<Vec<_>>>()?;
-    let head = head(program, line, control, own_move);
+    let [head, tail] = head(program, line, control, own_move);
+    blocks.extend(Some(tail).filter(|tail| !tail.is_empty()));
     if is_rs274 && modes.incremental {
         blocks.insert(0, "G90".to_owned());
         blocks.push("G91".to_owned());
@@ -104,11 +106,10 @@ pub(super) fn klartext_feed(m: &Move, modes: Modes) -> f64 {
     }
 }
 
-/// The block without the words of its cycle.
-fn head(program: &Program, line: &Range<usize>, control: Control, own_move: bool) -> String {
-    let source = program.source();
-    let text = |range: Range<usize>| String::from_utf8_lossy(&source[range]).into_owned();
-    match control {
+/// The block without the words of its cycle, and what of it comes after the cycle.
+fn head(program: &Program, line: &Range<usize>, control: Control, own_move: bool) -> [String; 2] {
+    let text = || String::from_utf8_lossy(&program.source()[line.clone()]).into_owned();
+    let whole = match control {
         Control::LinuxCnc if is_turning(program, line) => {
             head_without(program, line, &TURNING_CODES, b"NFSTMH")
         }
@@ -116,12 +117,12 @@ fn head(program: &Program, line: &Range<usize>, control: Control, own_move: bool
             head_without(program, line, &CYCLE_CODES, b"NFSTMDH")
         }
         Control::Heidenhain if own_move => {
-            let text = text(line.clone());
-            text.replace("M99", "").replace("M89", "").trim_end().to_owned()
+            text().replace("M99", "").replace("M89", "").trim_end().to_owned()
         }
-        Control::Sinumerik840d if own_move => text(line.clone()),
-        _ => String::new(),
-    }
+        Control::Sinumerik840d if own_move => text(),
+        Control::Heidenhain | Control::Sinumerik840d => return functions(program, line),
+    };
+    [whole, String::new()]
 }
 
 /// The turning cycles of LinuxCNC: their D is a distance.
