@@ -66,6 +66,41 @@ fn subprograms_in_the_text_and_in_the_library() {
     assert_eq!(path(Axis::X, text, &library), wanted);
 }
 
+/// A call or return follows the move of its block, whether the G code of the move is written or modal.
+#[test]
+fn law_a_modal_move_in_the_block_of_a_call_or_return_is_executed_first() {
+    let ends = |control, text: &str| -> Vec<[f64; 3]> {
+        let program = Program::new("p", text.as_bytes().to_vec(), control);
+        let mut ends = Vec::new();
+        let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |s| {
+            if let Step::Move(m) = s {
+                ends.push([m.target.0[0], m.target.0[1], m.target.0[2]]);
+            }
+        });
+        let problems: Vec<_> = outcome.problems.iter().map(ToString::to_string).collect();
+        assert!(outcome.finished && problems.is_empty(), "{text} {problems:?}");
+        ends
+    };
+    for control in [Control::Fanuc, Control::Haas, Control::LinuxCnc] {
+        for call in ["X5. Y6. M98 P2", "M98 P2 X5. Y6.", "G0 X5. Y6. M98 P2", "M98 P2 L1 X5. Y6."] {
+            let text =
+                format!("G21 G90 G54 G0 X0 Y0 Z50.\n{call}\nM30\nO2\nG91 Z1.\nG90\nX7. Y8. M99\n");
+            let wanted = [[0.0, 0.0, 50.0], [5.0, 6.0, 50.0], [5.0, 6.0, 51.0], [7.0, 8.0, 51.0]];
+            assert_eq!(ends(control, &text), wanted, "{control:?} {call}");
+        }
+        // The words of the call are not those of the cycle: one hole without a wait, then twice the subprogram.
+        let text = "G21 G90 G54 G0 X0 Y0 Z50.\nG99 G81 X1. Z-1. R2. F100.\nX2. M98 P2 L2\nM30\nO2\nG80\nG0 G91 Z1.\nG90\nM99\n";
+        let ends = ends(control, text);
+        let down = ends.iter().filter(|p| p[2] == -1.0).map(|p| p[0]);
+        assert_eq!(down.collect::<Vec<_>>(), [1.0, 2.0], "{control:?}");
+        assert_eq!(ends.last(), Some(&[2.0, 0.0, 4.0]), "{control:?}");
+    }
+    let text =
+        "G90 G0 X0 Z50.\nM97 P7 X5.\nX6. G187 P1\nX8. G103 P1\nM30\nN7 G91 Z1.\nG90 X7. M99\n";
+    let wanted = [0.0, 5.0, 5.0, 7.0, 6.0, 8.0];
+    assert_eq!(ends(Control::Haas, text).iter().map(|p| p[0]).collect::<Vec<_>>(), wanted);
+}
+
 #[test]
 fn m99_with_p_goes_back_elsewhere() {
     let text = "G0 X1\nM98 P10\nX2\nN50 X3\nM30\nO10\nM99 P50\n";
