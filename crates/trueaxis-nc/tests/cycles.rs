@@ -368,3 +368,26 @@ fn what_moves_nothing_is_no_missing_motion() {
         );
     }
 }
+
+/// "If you program DEPTH = 0, the cycle will not be executed": neither a plunge nor a way to its start.
+#[test]
+fn law_klartext_cycles_of_depth_zero_do_not_move() {
+    let heights = "Q200=2 Q201=0 Q203=0 Q204=20 Q206=50 Q239=+1 Q202=3 Q207=100 Q334=1 Q335=20 Q218=30 Q219=20 Q223=20";
+    let milled = ["208", "251", "252", "253", "254", "262"];
+    let drilled = ["200", "201", "202", "203", "205", "206", "207", "209", "240", "241"];
+    let new = milled.iter().chain(&drilled).map(|n| format!("CYCL DEF {n} D {heights}\n"));
+    let old = [1, 2, 17].map(|n| {
+        format!("CYCL DEF {n}.0 D\nCYCL DEF {n}.1 SET UP 2\nCYCL DEF {n}.2 DEPTH 0\nCYCL DEF {n}.3 P 1\nCYCL DEF {n}.4 V 0\nCYCL DEF {n}.5 F 100\n")
+    });
+    for cycle in new.chain(old) {
+        let text = format!(
+            "TOOL DEF 1 L+0 R+3\nTOOL CALL 1 Z S100\nL X+0 Y+0 Z+50 FMAX\n{cycle}CYCL CALL\nL X+5 FMAX M99\nM30\n"
+        );
+        let (moves, outcome) = run(Control::Heidenhain, &text);
+        let codes: Vec<_> = outcome.problems.iter().map(|d| d.code).collect();
+        assert_eq!(codes, ["cycle-depth-zero"], "{text}");
+        let wanted = [(true, [0.0, 0.0, 50.0]), (true, [5.0, 0.0, 50.0])];
+        assert_eq!(path(&moves), wanted, "{text}");
+        assert!(outcome.finished && !leaves_motion_out("cycle-depth-zero"));
+    }
+}

@@ -12,8 +12,7 @@ use crate::text::program::Fault;
 const MOST_PECKS: usize = 100_000;
 
 /// Parameters of these cycles that are not moved.
-const LEFT_OUT: [(u32, &str); 4] = [
-    (343, "the depth by diameter"),
+const LEFT_OUT: [(u32, &str); 3] = [
     (379, "the deepened starting point"),
     (257, "the chip breaking"),
     (395, "the depth to the edge of the tip"),
