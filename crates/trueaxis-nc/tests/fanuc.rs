@@ -107,6 +107,28 @@ fn m99_with_p_goes_back_elsewhere() {
     assert_eq!(path(Axis::X, text, &NoLibrary), [1.0, 3.0]);
 }
 
+/// From the bottom to R with feed, as it went in, then with rapid.
+#[test]
+fn law_a_tap_leaves_the_hole_with_feed_and_goes_on_with_rapid() {
+    for (code, control) in [("G84", Fanuc), ("G74", Fanuc), ("G84", Haas), ("G74", Haas)] {
+        let text =
+            format!("G90 G0 X0 Y0 Z50.\nG98 {code} X10. Z-5. R2. F100.\nG99 X20.\nG80\nM30\n");
+        let program = Program::new("p", text.into_bytes(), control);
+        let mut found = Vec::new();
+        interpret(&program, &NoLibrary, &Settings::default(), &mut |s| {
+            if let Step::Move(m) = s
+                && !matches!(m.kind, MoveKind::Dwell { .. })
+            {
+                found.push((m.kind == MoveKind::Rapid, m.target[Axis::Z]));
+            }
+        });
+        let first =
+            [(true, 50.0), (true, 50.0), (true, 2.0), (false, -5.0), (false, 2.0), (true, 50.0)];
+        let second = [(true, 50.0), (true, 2.0), (false, -5.0), (false, 2.0)];
+        assert_eq!(found, [&first[..], &second].concat(), "{code} {control:?}");
+    }
+}
+
 #[test]
 fn drilling_returns_to_the_initial_plane_or_to_r() {
     let text = "G90 G0 X0 Y0 Z50\nG98 G81 X10 Z-5 R2 F100\nG99 X20\nG80 X30 Z60\nM30\n";

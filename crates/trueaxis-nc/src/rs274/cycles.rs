@@ -227,11 +227,11 @@ impl Run<'_> {
         match cycle {
             Cycle::TapLeft | Cycle::TapRight => {
                 strokes.extend([turn(SpindleDirection::Stopped), turn(reversed(turning)), wait]);
-                strokes.extend([
-                    Stroke::Linear(hole.clear),
-                    turn(SpindleDirection::Stopped),
-                    turn(turning),
-                ]);
+                // FANUC feeds out to R and goes on with rapid, LinuxCNC feeds all the way.
+                let out_of = if self.is_fanuc() { hole.r } else { hole.clear };
+                strokes.extend([Stroke::Linear(out_of), turn(SpindleDirection::Stopped)]);
+                strokes.push(turn(turning));
+                strokes.extend((out_of != hole.clear).then_some(out));
             }
             Cycle::Bore | Cycle::BoreDwell => {
                 strokes.extend((cycle == Cycle::BoreDwell).then_some(wait));
