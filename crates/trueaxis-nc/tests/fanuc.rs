@@ -51,6 +51,31 @@ fn two_letters_of_a_macro_word_are_enough() {
     assert_eq!(path(Axis::X, text, &NoLibrary), [1.0, 2.0, 3.0, 5.0, 2.0]);
 }
 
+/// No word is lost beside a jump or loop: it is an error at that word.
+#[test]
+fn law_words_beside_a_jump_or_loop_are_an_error() {
+    let problems = |text: &str| -> Vec<(String, usize, usize)> {
+        let program = Program::new("p", text.as_bytes().to_vec(), Fanuc);
+        let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |_| {});
+        let of =
+            |d: &trueaxis_input::Diagnostic| (d.code.to_string(), d.place.line, d.place.column);
+        outcome.problems.iter().map(of).collect()
+    };
+    let loops = "N1 WHILE[#1 LT 1]DO1 (A)\n#1=1\nN2 END1 (B)\nN3 IF[1 EQ 2]GOTO 5\nGOTO 5 (C)\nN5 IF[1EQ1]THEN #1=2\nM30\n";
+    assert_eq!(problems(loops), []);
+    for (text, line, column) in [
+        ("G0 X1.\nIF[1 EQ 2] GOTO 5 X9.\nN5 M30\n", 2, 19),
+        ("G0 X1.\nGOTO 5 X9.\nN5 M30\n", 2, 8),
+        ("G0 X1.\nWHILE[#1 LT 1] DO1 X9.\n#1=1\nEND1\nM30\n", 2, 20),
+        ("G0 X1.\nWHILE[#1 LT 1] DO1\n#1=1\nEND1 X9.\nM30\n", 4, 6),
+        ("G0 X1.\nX9. GOTO 5\nN5 M30\n", 2, 5),
+        ("G0 X1.\n#1=3 IF[1 EQ 1] GOTO 5\nN5 M30\n", 2, 6),
+        ("G0 X1.\nIF[1 EQ 1] THEN GOTO 5\nN5 M30\n", 2, 17),
+    ] {
+        assert_eq!(problems(text), [("unexpected-sign".to_owned(), line, column)], "{text}");
+    }
+}
+
 #[test]
 fn an_empty_parameter_leaves_its_word_out() {
     let text = "G0 X1 Y1\nX2 Y#9\nIF [#9 EQ #0] GOTO 1\nX9\nN1 M30\n";
