@@ -51,6 +51,25 @@ fn two_letters_of_a_macro_word_are_enough() {
     assert_eq!(path(Axis::X, text, &NoLibrary), [1.0, 2.0, 3.0, 5.0, 2.0]);
 }
 
+#[test]
+fn functions_of_two_arguments() {
+    let text = "#1=3\nG0 X[POW[#1-1,3]]\nX[POW[4,0.5]+1]\nX[ATAN[1,-1]]\nX[ATAN[-1,#1-4]]\nX[ATAN[1]/[-1]]\nX[ATAN[1]]\nX[-POW[2,-1]*2]\nM30\n";
+    let found = path(Axis::X, text, &NoLibrary);
+    let wanted = [8.0, 3.0, 135.0, -135.0, 135.0, 45.0, -1.0];
+    assert!(found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?}");
+    assert_eq!(found.len(), wanted.len());
+    for (control, text, code) in [
+        (Fanuc, "G0 X[POW[2]]\n", "missing-value"),
+        (Fanuc, "G0 X[POW[-1,0.5]]\n", "not-finite"),
+        (Fanuc, "G0 X[SIN[2,3]]\n", "unbalanced-brackets"),
+        (Haas, "G0 X[POW[2,3]]\n", "missing-value"),
+    ] {
+        let program = Program::new("p", text.as_bytes().to_vec(), control);
+        let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |_| {});
+        assert_eq!(outcome.problems.iter().next().unwrap().code, code, "{text}");
+    }
+}
+
 /// No word is lost beside a jump or loop: it is an error at that word.
 #[test]
 fn law_words_beside_a_jump_or_loop_are_an_error() {
