@@ -362,3 +362,32 @@ fn what_goes_out_of_the_control_is_said() {
     // 0.01 mm before the end of a way of 10 mm along (0.8, 0.6): 7.992 and 5.994.
     assert_eq!(logged, ["TRUEAXIS HITS MM", "H1 T7 X7.9920 Y6.0 A-30."]);
 }
+
+/// I, then each peck less by J, none below K; the next hole keeps them, Q ends them.
+#[test]
+fn haas_pecks_become_shorter() {
+    let run = |text: &str| -> (Vec<f64>, Vec<String>) {
+        let program = Program::new("p", text.as_bytes().to_vec(), Haas);
+        let mut down = Vec::new();
+        let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |s| {
+            if let Step::Move(m) = s
+                && m.kind == MoveKind::Linear
+            {
+                down.push(m.target[Axis::Z]);
+            }
+        });
+        (down, outcome.problems.iter().map(|d| d.code.to_string()).collect())
+    };
+    for code in ["G83", "G73"] {
+        let begin = format!("G21 G90 G0 X0 Y0 Z50.\nG99 {code} Z-28. R2.");
+        let (down, problems) =
+            run(&format!("{begin} I10. J4. K3. F100.\nX5.\nX9. Q15.\nG80\nM30\n"));
+        // 10, 6, 3, 3, 3, 3 and the remaining 2 from Z2 to Z-28.
+        let one = [-8.0, -14.0, -17.0, -20.0, -23.0, -26.0, -28.0];
+        assert_eq!(down, [&one[..], &one, &[-13.0, -28.0]].concat(), "{code}");
+        assert!(problems.is_empty(), "{problems:?}");
+        assert_eq!(run(&format!("{begin} I10. K3. F100.\nM30\n")).1, ["cycle-without-q"]);
+        let (down, problems) = run(&format!("{begin} Q15. K3. F100.\nG80\nM30\n"));
+        assert_eq!((down, &problems[..]), (vec![-13.0, -28.0], &["not-applied".to_owned()][..]));
+    }
+}
