@@ -159,7 +159,7 @@ impl Parser<'_, '_> {
         Some(self.macro_statement(keyword, offset).is_some())
     }
 
-    /// A jump, loop or condition and nothing else: FANUC has no words beside them, and here they would be lost.
+    /// A jump, loop or condition and nothing else: other words of its block would be lost.
     fn macro_statement(&mut self, keyword: Keyword, offset: usize) -> Option<()> {
         const ALONE: &str = "write it into a block of its own";
         let named = |item: &Item| match item {
