@@ -1,5 +1,5 @@
-//! The text of NC programs of five controls, without loss: tokens, blocks with their words, and the tables of
-//! the codes. What they do is executed by `trueaxis-nc`.
+//! The text of NC programs of five controls, without loss: tokens, blocks with their words, the tables of
+//! the codes, and the wording of mistakes. What they do is executed by `trueaxis-nc`.
 //!
 //! ```
 //! use trueaxis_blocks::{Control, Program};
@@ -17,6 +17,7 @@ mod heidenhain;
 pub mod klartext;
 pub mod lexer;
 mod linuxcnc;
+pub mod mistakes;
 mod parser;
 pub mod program;
 pub mod siemens;

@@ -8,7 +8,6 @@ pub(crate) mod frames;
 mod language;
 mod library;
 pub(crate) mod milling;
-pub(crate) mod mistakes;
 mod modes;
 mod own_codes;
 pub(crate) mod radius;
@@ -18,6 +17,7 @@ pub(crate) mod values;
 
 use std::collections::BTreeMap;
 
+pub(crate) use trueaxis_blocks::mistakes;
 use trueaxis_input::Diagnostics;
 
 use crate::moves::{Frame, Plane, Position};

@@ -368,3 +368,56 @@ fn what_moves_nothing_is_no_missing_motion() {
         );
     }
 }
+
+/// "If you program DEPTH = 0, the cycle will not be executed": neither a plunge nor a way to its start.
+#[test]
+fn law_klartext_cycles_of_depth_zero_do_not_move() {
+    let heights = "Q200=2 Q201=0 Q203=0 Q204=20 Q206=50 Q239=+1 Q202=3 Q207=100 Q334=1 Q335=20 Q218=30 Q219=20 Q223=20";
+    let milled = ["208", "251", "252", "253", "254", "262"];
+    let drilled = ["200", "201", "202", "203", "205", "206", "207", "209", "240", "241"];
+    let new = milled.iter().chain(&drilled).map(|n| format!("CYCL DEF {n} D {heights}\n"));
+    let old = [1, 2, 17].map(|n| {
+        format!("CYCL DEF {n}.0 D\nCYCL DEF {n}.1 SET UP 2\nCYCL DEF {n}.2 DEPTH 0\nCYCL DEF {n}.3 P 1\nCYCL DEF {n}.4 V 0\nCYCL DEF {n}.5 F 100\n")
+    });
+    for cycle in new.chain(old) {
+        let text = format!(
+            "TOOL DEF 1 L+0 R+3\nTOOL CALL 1 Z S100\nL X+0 Y+0 Z+50 FMAX\n{cycle}CYCL CALL\nL X+5 FMAX M99\nM30\n"
+        );
+        let (moves, outcome) = run(Control::Heidenhain, &text);
+        let codes: Vec<_> = outcome.problems.iter().map(|d| d.code).collect();
+        assert_eq!(codes, ["cycle-depth-zero"], "{text}");
+        let wanted = [(true, [0.0, 0.0, 50.0]), (true, [5.0, 0.0, 50.0])];
+        assert_eq!(path(&moves), wanted, "{text}");
+        assert!(outcome.finished && !leaves_motion_out("cycle-depth-zero"));
+    }
+}
+
+/// The way from the bottom to the set-up clearance has the feed Q208; between pecks it is rapid.
+#[test]
+fn law_klartext_retracts_with_its_feed() {
+    let up = |cycle: u32, q208: &str| -> Vec<Option<f64>> {
+        let text = format!(
+            "TOOL CALL 1 Z S100\nL X+0 Y+0 Z+50 FMAX\nCYCL DEF {cycle} D Q200=2 Q201=-20 Q206=150 Q202=15 Q203=0 Q204=10 {q208}\nCYCL CALL\nM30\n"
+        );
+        let moves = sound(Control::Heidenhain, &text);
+        let pairs = moves.windows(2).filter(|m| m[1].target[Axis::Z] > m[0].target[Axis::Z]);
+        let feed = |m: &Move| (m.kind == MoveKind::Linear).then_some(m.feed.value);
+        let up: Vec<_> = pairs.map(|m| (m[1].target[Axis::Z], feed(&m[1]))).collect();
+        assert_eq!(up.last(), Some(&(10.0, None)), "{text}");
+        assert!(up[..up.len() - 1].iter().all(|(z, _)| *z == 2.0), "{text} {up:?}");
+        up[..up.len() - 1].iter().map(|(_, feed)| *feed).collect()
+    };
+    for pecked in [203, 205] {
+        assert_eq!(up(pecked, "Q208=500"), [None, Some(500.0)]);
+        assert_eq!(up(pecked, "Q208=0"), [None, Some(150.0)]);
+    }
+    for whole in [201, 241] {
+        assert_eq!(up(whole, "Q208=500"), [Some(500.0)]);
+        assert_eq!(up(whole, "Q208=0"), [Some(150.0)]);
+    }
+    for (cycle, pecks) in [(203, 1), (205, 1), (201, 0), (241, 0)] {
+        for rapid in ["Q208=FMAX", "Q208=99999"] {
+            assert_eq!(up(cycle, rapid), vec![None; pecks], "{cycle} {rapid}");
+        }
+    }
+}

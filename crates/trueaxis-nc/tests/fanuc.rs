@@ -52,6 +52,50 @@ fn two_letters_of_a_macro_word_are_enough() {
 }
 
 #[test]
+fn functions_of_two_arguments() {
+    let text = "#1=3\nG0 X[POW[#1-1,3]]\nX[POW[4,0.5]+1]\nX[ATAN[1,-1]]\nX[ATAN[-1,#1-4]]\nX[ATAN[1]/[-1]]\nX[ATAN[1]]\nX[-POW[2,-1]*2]\nM30\n";
+    let found = path(Axis::X, text, &NoLibrary);
+    let wanted = [8.0, 3.0, 135.0, -135.0, 135.0, 45.0, -1.0];
+    assert!(found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?}");
+    assert_eq!(found.len(), wanted.len());
+    for (control, text, code) in [
+        (Fanuc, "G0 X[POW[2]]\n", "missing-value"),
+        (Fanuc, "G0 X[POW[-1,0.5]]\n", "not-finite"),
+        (Fanuc, "G0 X[SIN[2,3]]\n", "unbalanced-brackets"),
+        (Haas, "G0 X[POW[2,3]]\n", "missing-value"),
+    ] {
+        let program = Program::new("p", text.as_bytes().to_vec(), control);
+        let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |_| {});
+        assert_eq!(outcome.problems.iter().next().unwrap().code, code, "{text}");
+    }
+}
+
+/// No word is lost beside a jump or loop: it is an error at that word.
+#[test]
+fn law_words_beside_a_jump_or_loop_are_an_error() {
+    let problems = |text: &str| -> Vec<(String, usize, usize)> {
+        let program = Program::new("p", text.as_bytes().to_vec(), Fanuc);
+        let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |_| {});
+        let of =
+            |d: &trueaxis_input::Diagnostic| (d.code.to_string(), d.place.line, d.place.column);
+        outcome.problems.iter().map(of).collect()
+    };
+    let loops = "N1 WHILE[#1 LT 1]DO1 (A)\n#1=1\nN2 END1 (B)\nN3 IF[1 EQ 2]GOTO 5\nGOTO 5 (C)\nN5 IF[1EQ1]THEN #1=2\nM30\n";
+    assert_eq!(problems(loops), []);
+    for (text, line, column) in [
+        ("G0 X1.\nIF[1 EQ 2] GOTO 5 X9.\nN5 M30\n", 2, 19),
+        ("G0 X1.\nGOTO 5 X9.\nN5 M30\n", 2, 8),
+        ("G0 X1.\nWHILE[#1 LT 1] DO1 X9.\n#1=1\nEND1\nM30\n", 2, 20),
+        ("G0 X1.\nWHILE[#1 LT 1] DO1\n#1=1\nEND1 X9.\nM30\n", 4, 6),
+        ("G0 X1.\nX9. GOTO 5\nN5 M30\n", 2, 5),
+        ("G0 X1.\n#1=3 IF[1 EQ 1] GOTO 5\nN5 M30\n", 2, 6),
+        ("G0 X1.\nIF[1 EQ 1] THEN GOTO 5\nN5 M30\n", 2, 17),
+    ] {
+        assert_eq!(problems(text), [("unexpected-sign".to_owned(), line, column)], "{text}");
+    }
+}
+
+#[test]
 fn an_empty_parameter_leaves_its_word_out() {
     let text = "G0 X1 Y1\nX2 Y#9\nIF [#9 EQ #0] GOTO 1\nX9\nN1 M30\n";
     assert_eq!(path(Axis::Y, text, &NoLibrary), [1.0, 1.0]);
@@ -66,10 +110,67 @@ fn subprograms_in_the_text_and_in_the_library() {
     assert_eq!(path(Axis::X, text, &library), wanted);
 }
 
+/// A call or return follows the move of its block, whether the G code of the move is written or modal.
+#[test]
+fn law_a_modal_move_in_the_block_of_a_call_or_return_is_executed_first() {
+    let ends = |control, text: &str| -> Vec<[f64; 3]> {
+        let program = Program::new("p", text.as_bytes().to_vec(), control);
+        let mut ends = Vec::new();
+        let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |s| {
+            if let Step::Move(m) = s {
+                ends.push([m.target.0[0], m.target.0[1], m.target.0[2]]);
+            }
+        });
+        let problems: Vec<_> = outcome.problems.iter().map(ToString::to_string).collect();
+        assert!(outcome.finished && problems.is_empty(), "{text} {problems:?}");
+        ends
+    };
+    for control in [Control::Fanuc, Control::Haas, Control::LinuxCnc] {
+        for call in ["X5. Y6. M98 P2", "M98 P2 X5. Y6.", "G0 X5. Y6. M98 P2", "M98 P2 L1 X5. Y6."] {
+            let text =
+                format!("G21 G90 G54 G0 X0 Y0 Z50.\n{call}\nM30\nO2\nG91 Z1.\nG90\nX7. Y8. M99\n");
+            let wanted = [[0.0, 0.0, 50.0], [5.0, 6.0, 50.0], [5.0, 6.0, 51.0], [7.0, 8.0, 51.0]];
+            assert_eq!(ends(control, &text), wanted, "{control:?} {call}");
+        }
+        // The words of the call are not those of the cycle: one hole without a wait, then twice the subprogram.
+        let text = "G21 G90 G54 G0 X0 Y0 Z50.\nG99 G81 X1. Z-1. R2. F100.\nX2. M98 P2 L2\nM30\nO2\nG80\nG0 G91 Z1.\nG90\nM99\n";
+        let ends = ends(control, text);
+        let down = ends.iter().filter(|p| p[2] == -1.0).map(|p| p[0]);
+        assert_eq!(down.collect::<Vec<_>>(), [1.0, 2.0], "{control:?}");
+        assert_eq!(ends.last(), Some(&[2.0, 0.0, 4.0]), "{control:?}");
+    }
+    let text =
+        "G90 G0 X0 Z50.\nM97 P7 X5.\nX6. G187 P1\nX8. G103 P1\nM30\nN7 G91 Z1.\nG90 X7. M99\n";
+    let wanted = [0.0, 5.0, 5.0, 7.0, 6.0, 8.0];
+    assert_eq!(ends(Control::Haas, text).iter().map(|p| p[0]).collect::<Vec<_>>(), wanted);
+}
+
 #[test]
 fn m99_with_p_goes_back_elsewhere() {
     let text = "G0 X1\nM98 P10\nX2\nN50 X3\nM30\nO10\nM99 P50\n";
     assert_eq!(path(Axis::X, text, &NoLibrary), [1.0, 3.0]);
+}
+
+/// From the bottom to R with feed, as it went in, then with rapid.
+#[test]
+fn law_a_tap_leaves_the_hole_with_feed_and_goes_on_with_rapid() {
+    for (code, control) in [("G84", Fanuc), ("G74", Fanuc), ("G84", Haas), ("G74", Haas)] {
+        let text =
+            format!("G90 G0 X0 Y0 Z50.\nG98 {code} X10. Z-5. R2. F100.\nG99 X20.\nG80\nM30\n");
+        let program = Program::new("p", text.into_bytes(), control);
+        let mut found = Vec::new();
+        interpret(&program, &NoLibrary, &Settings::default(), &mut |s| {
+            if let Step::Move(m) = s
+                && !matches!(m.kind, MoveKind::Dwell { .. })
+            {
+                found.push((m.kind == MoveKind::Rapid, m.target[Axis::Z]));
+            }
+        });
+        let first =
+            [(true, 50.0), (true, 50.0), (true, 2.0), (false, -5.0), (false, 2.0), (true, 50.0)];
+        let second = [(true, 50.0), (true, 2.0), (false, -5.0), (false, 2.0)];
+        assert_eq!(found, [&first[..], &second].concat(), "{code} {control:?}");
+    }
 }
 
 #[test]
@@ -260,4 +361,33 @@ fn what_goes_out_of_the_control_is_said() {
     let logged: Vec<String> = steps.iter().filter_map(logged).collect();
     // 0.01 mm before the end of a way of 10 mm along (0.8, 0.6): 7.992 and 5.994.
     assert_eq!(logged, ["TRUEAXIS HITS MM", "H1 T7 X7.9920 Y6.0 A-30."]);
+}
+
+/// I, then each peck less by J, none below K; the next hole keeps them, Q ends them.
+#[test]
+fn haas_pecks_become_shorter() {
+    let run = |text: &str| -> (Vec<f64>, Vec<String>) {
+        let program = Program::new("p", text.as_bytes().to_vec(), Haas);
+        let mut down = Vec::new();
+        let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |s| {
+            if let Step::Move(m) = s
+                && m.kind == MoveKind::Linear
+            {
+                down.push(m.target[Axis::Z]);
+            }
+        });
+        (down, outcome.problems.iter().map(|d| d.code.to_string()).collect())
+    };
+    for code in ["G83", "G73"] {
+        let begin = format!("G21 G90 G0 X0 Y0 Z50.\nG99 {code} Z-28. R2.");
+        let (down, problems) =
+            run(&format!("{begin} I10. J4. K3. F100.\nX5.\nX9. Q15.\nG80\nM30\n"));
+        // 10, 6, 3, 3, 3, 3 and the remaining 2 from Z2 to Z-28.
+        let one = [-8.0, -14.0, -17.0, -20.0, -23.0, -26.0, -28.0];
+        assert_eq!(down, [&one[..], &one, &[-13.0, -28.0]].concat(), "{code}");
+        assert!(problems.is_empty(), "{problems:?}");
+        assert_eq!(run(&format!("{begin} I10. K3. F100.\nM30\n")).1, ["cycle-without-q"]);
+        let (down, problems) = run(&format!("{begin} Q15. K3. F100.\nG80\nM30\n"));
+        assert_eq!((down, &problems[..]), (vec![-13.0, -28.0], &["not-applied".to_owned()][..]));
+    }
 }

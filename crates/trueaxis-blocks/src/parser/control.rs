@@ -159,7 +159,33 @@ impl Parser<'_, '_> {
         Some(self.macro_statement(keyword, offset).is_some())
     }
 
+    /// A jump, loop or condition and nothing else: other words of its block would be lost.
     fn macro_statement(&mut self, keyword: Keyword, offset: usize) -> Option<()> {
+        const ALONE: &str = "write it into a block of its own";
+        let named = |item: &Item| match item {
+            Item::Comment(_) | Item::LooseEnd(_) | Item::Word { letter: b'N', .. } => false,
+            Item::Control { keyword, .. } => *keyword != Keyword::ProgramNumber,
+            _ => true,
+        };
+        if self.block.items.iter().any(named) {
+            let message = "unexpected text before a jump, loop or condition".to_owned();
+            self.fault("unexpected-sign", offset, message, ALONE);
+            return None;
+        }
+        self.macro_parts(keyword, offset)?;
+        let then =
+            matches!(self.block.items.last(), Some(Item::Control { keyword: Keyword::IfThen, .. }));
+        match self.token {
+            Some(token) if !then => {
+                let message = "unexpected text after a jump or loop".to_owned();
+                self.fault("unexpected-sign", token.start, message, ALONE);
+                None
+            }
+            _ => Some(()),
+        }
+    }
+
+    fn macro_parts(&mut self, keyword: Keyword, offset: usize) -> Option<()> {
         match keyword {
             Keyword::If => {
                 let condition = self.bracket()?;

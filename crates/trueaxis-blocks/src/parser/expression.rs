@@ -1,6 +1,7 @@
 //! Expressions in brackets.
 
 use super::{DEEPEST, Parser};
+use crate::dialect::Control;
 use crate::lexer::{Token, TokenKind, number_value};
 use crate::program::{Function, Node, NodeId, Operator};
 
@@ -128,18 +129,25 @@ impl Parser<'_, '_> {
 
     /// `[ … ]`
     pub(super) fn bracket(&mut self) -> Option<NodeId> {
+        self.arguments(false).map(|(value, _)| value)
+    }
+
+    /// `[ … ]`, or `[ … , … ]` where two arguments are possible.
+    fn arguments(&mut self, two: bool) -> Option<(NodeId, Option<NodeId>)> {
         let open = self.here();
         if !self.accept(b'[') {
             self.missing_value();
             return None;
         }
         let value = self.deeper(|p| p.chain(0))?;
+        let second =
+            if two && self.accept(b',') { Some(self.deeper(|p| p.chain(0))?) } else { None };
         if !self.accept(b']') {
             let message = "this bracket is not closed".to_owned();
             self.fault("unbalanced-brackets", open, message, "write one ] for each [");
             return None;
         }
-        Some(value)
+        Some((value, second))
     }
 
     /// Values with operators between them that bind stronger than `least`.
@@ -187,6 +195,9 @@ impl Parser<'_, '_> {
         if self.accept_short(b"ATAN") {
             return self.arc_tangent();
         }
+        if self.dialect.control == Control::Fanuc && self.accept_word(b"POW") {
+            return self.power(offset);
+        }
         if self.accept_word(b"EXISTS") {
             return self.exists();
         }
@@ -205,9 +216,25 @@ impl Parser<'_, '_> {
         Some(self.node(Node::Function(*function, argument, offset)))
     }
 
+    /// `POW[x, y]`: x to the power of y.
+    ///
+    /// # Source
+    /// FANUC Series 30i operator's manual, "Custom macro", arithmetic and logic operations.
+    fn power(&mut self, offset: usize) -> Option<NodeId> {
+        let (base, Some(exponent)) = self.arguments(true)? else {
+            let message = "POW needs two arguments".to_owned();
+            self.fault("missing-value", offset, message, "write POW[#1,2]");
+            return None;
+        };
+        Some(self.node(Node::Binary(Operator::Power, base, exponent, offset)))
+    }
+
+    /// `ATAN[y]/[x]`; on FANUC also `ATAN[y, x]`, or one argument.
     fn arc_tangent(&mut self) -> Option<NodeId> {
-        let y = self.bracket()?;
-        let x = if self.accept(b'/') {
+        let (y, second) = self.arguments(self.dialect.control == Control::Fanuc)?;
+        let x = if let Some(x) = second {
+            x
+        } else if self.accept(b'/') {
             self.bracket()?
         } else if self.dialect.macro_words {
             self.node(Node::Number(1.0))

@@ -340,7 +340,7 @@ impl Core<'_> {
             element = element.through(active.point(&m.target));
         }
         if let Err(gouge) = check_fit(&element, left_mm) {
-            self.hold_fault(mistakes::gouge(&gouge, left_mm.abs(), None, self.start));
+            self.hold_fault(mistakes::gouge(gouge, left_mm.abs(), None, self.start));
             return;
         }
         let begin = centre(&element, 0.0, left_mm);
@@ -392,7 +392,7 @@ impl Core<'_> {
                 let line = waiting.step.origin.line;
                 let end = waiting.end;
                 self.release_waiting(waiting, end, 0.0);
-                self.hold_fault(mistakes::gouge(&gouge, left_mm.abs(), Some(line), self.start));
+                self.hold_fault(mistakes::gouge(gouge, left_mm.abs(), Some(line), self.start));
                 0.0
             }
         }

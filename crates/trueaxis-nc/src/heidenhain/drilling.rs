@@ -12,8 +12,7 @@ use crate::text::program::Fault;
 const MOST_PECKS: usize = 100_000;
 
 /// Parameters of these cycles that are not moved.
-const LEFT_OUT: [(u32, &str); 4] = [
-    (343, "the depth by diameter"),
+const LEFT_OUT: [(u32, &str); 3] = [
     (379, "the deepened starting point"),
     (257, "the chip breaking"),
     (395, "the depth to the edge of the tip"),
@@ -32,8 +31,8 @@ struct Hole {
     feed: Feed,
     /// The feed of the program, which a wait keeps.
     modal: Feed,
-    /// Feed on the way out; the same as in where none is given.
-    feed_out: Feed,
+    /// Feed on the way out to the clearance; without one the way out is rapid.
+    feed_out: Option<Feed>,
     peck: f64,
     /// How much each peck is shorter than the one before, and the shortest.
     decrement: f64,
@@ -94,11 +93,11 @@ impl Run<'_> {
                 strokes.extend(hole.wait(hole.dwell_bottom));
             }
         }
-        let end = if matches!(number, 201 | 202 | 2 | 206 | 17 | 207 | 209 | 241) {
-            hole.start
-        } else {
-            hole.bottom
-        };
+        let tapped = matches!(number, 2 | 206 | 17 | 207 | 209);
+        if let Some(out) = hole.feed_out.filter(|_| !tapped) {
+            strokes.extend([Stroke::Feed(out), Stroke::Linear(hole.start)]);
+        }
+        let end = if tapped || hole.feed_out.is_some() { hole.start } else { hole.bottom };
         strokes.extend((end != hole.clear).then_some(Stroke::Rapid(hole.clear)));
         self.drill(strokes, at)?;
         self.tangent = None;
@@ -129,7 +128,7 @@ impl Run<'_> {
             bottom: surface + depth,
             clear: start,
             feed: self.per_minute(feed),
-            feed_out: self.per_minute(feed),
+            feed_out: None,
             modal: self.core.modes.feed,
             peck,
             decrement: 0.0,
@@ -149,7 +148,7 @@ impl Run<'_> {
         let value = |q: u32| values.get(&q).copied().unwrap_or(0.0);
         let (surface, clearance) = (value(203) * mm, value(200).abs() * mm);
         let feed = self.per_minute(value(206));
-        let out = if value(208) > 0.0 { self.per_minute(value(208)) } else { feed };
+        let feed_out = self.feed_out(number, values.get(&208).copied(), feed);
         let peck = if matches!(number, 200 | 203 | 205) { value(202).abs() * mm } else { 0.0 };
         Hole {
             number,
@@ -158,7 +157,7 @@ impl Run<'_> {
             bottom: surface + value(201) * mm,
             clear: surface + clearance.max(value(204) * mm),
             feed,
-            feed_out: out,
+            feed_out,
             modal: self.core.modes.feed,
             peck,
             decrement: if number == 200 { 0.0 } else { value(212).abs() * mm },
@@ -173,6 +172,18 @@ impl Run<'_> {
         }
     }
 
+    /// Q208: 0 is the feed of the way down, FMAX is rapid. Old programs have no Q208 in 203 and 205: they retract
+    /// with rapid.
+    fn feed_out(&self, number: u32, q208: Option<f64>, down: Feed) -> Option<Feed> {
+        match (number, q208) {
+            (203 | 205, None) => None,
+            (201..=203 | 205 | 241, Some(feed)) if feed >= 99_999.0 => None,
+            (201..=203 | 205 | 241, Some(feed)) if feed > 0.0 => Some(self.per_minute(feed)),
+            (201..=203 | 205 | 241, _) => Some(down),
+            _ => None,
+        }
+    }
+
     /// Reaming and boring: in and out with feed; the lift-off of 202 is not moved.
     fn bore(&mut self, hole: &Hole, at: usize) -> Vec<Stroke> {
         let mut strokes = vec![Stroke::Linear(hole.bottom)];
@@ -182,8 +193,6 @@ impl Run<'_> {
             strokes.push(Stroke::Event(Event::SpindleOrient { angle_deg }));
             self.core.left_out("the lift-off from the wall in cycle 202", at);
         }
-        strokes.extend([Stroke::Feed(hole.feed_out), Stroke::Linear(hole.start)]);
-        strokes.push(Stroke::Feed(hole.feed));
         strokes
     }
 
@@ -198,7 +207,6 @@ impl Run<'_> {
         }
         strokes.push(Stroke::Linear(hole.bottom));
         strokes.extend(hole.wait(hole.dwell_bottom));
-        strokes.extend([Stroke::Feed(hole.feed_out), Stroke::Linear(hole.start)]);
         strokes
     }
 

@@ -72,6 +72,9 @@ impl Run<'_> {
         if number == 204 {
             return self.bore_back(values, at);
         }
+        if self.has_depth_zero(number, values, at) {
+            return Ok(());
+        }
         if MILLING.contains(&number) {
             return self.mill_hole(number, values, at);
         }
@@ -136,6 +139,24 @@ impl Run<'_> {
             return Ok(());
         };
         self.carry_out(&cycle, heights.safe_mm, &passes)
+    }
+
+    /// The control passes a cycle with DEPTH = 0 over: no move of it is executed, not even one to its start.
+    ///
+    /// # Source
+    /// HEIDENHAIN, user's manuals "Machining Cycles" of TNC 640 and before: "If you program DEPTH = 0, the cycle
+    /// will not be executed".
+    fn has_depth_zero(&mut self, number: u32, values: &BTreeMap<u32, f64>, at: usize) -> bool {
+        let depth = values.get(if number < 100 { &2 } else { &201 });
+        // Cycle 240 may take its depth from a diameter, which is left out with a warning.
+        let other = number == 240 && values.get(&343).is_some_and(|v| *v != 0.0);
+        if other {
+            self.core.left_out("Q343 of cycle 240: the depth by diameter", at);
+        } else if depth == Some(&0.0) {
+            let message = format!("cycle {number} has the depth 0: it is not executed");
+            self.core.warn("cycle-depth-zero", number, at, message, "state a depth below 0");
+        }
+        depth == Some(&0.0)
     }
 
     /// To a height where the tool stands, then the passes, and up to where the tool is left.

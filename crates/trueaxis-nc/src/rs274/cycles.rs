@@ -6,7 +6,8 @@ use crate::execution::mistakes;
 use crate::moves::{Axis, Event, MoveKind, Position, SpindleDirection};
 use crate::rs274::code::{Cycle, Motion};
 use crate::text::program::Fault;
-use trueaxis_cycles::pattern::{Circle, MOST_HOLES, Row};
+use trueaxis_blocks::Control;
+use trueaxis_cycles::pattern::{Circle, MOST_HOLES, Row, peck_depths};
 
 /// What drilling cycles keep from block to block.
 #[derive(Debug, Clone, Default)]
@@ -17,6 +18,8 @@ pub(super) struct CycleMemory {
     /// LinuxCNC keeps R and depth for the same cycle only.
     last: Option<Cycle>,
     peck_mm: Option<f64>,
+    /// HAAS: the first peck and by how much each is less; the peck is then the least.
+    shrink_mm: Option<[f64; 2]>,
     dwell_s: f64,
     /// Where the drill stood when the cycles began.
     initial_mm: Option<f64>,
@@ -37,7 +40,21 @@ struct Hole {
     bottom: f64,
     clear: f64,
     peck: f64,
+    shrink: Option<[f64; 2]>,
     dwell_s: f64,
+}
+
+impl Hole {
+    /// The depths of the pecks: by Q at a time, or each shorter than the one before.
+    fn depths(&self) -> Vec<f64> {
+        let Some([first, less]) = self.shrink else {
+            let depths = (1..).map(|n| self.r - f64::from(n) * self.peck);
+            return depths.take_while(|d| *d > self.bottom).chain([self.bottom]).collect();
+        };
+        let shorter = |stroke: f64| (stroke - less).max(self.peck);
+        let depths = peck_depths(self.r - self.bottom, first, MOST_PECKS as usize, shorter);
+        depths.map_or(vec![self.bottom], |d| d.iter().map(|d| self.r - d).collect())
+    }
 }
 
 impl Run<'_> {
@@ -50,6 +67,7 @@ impl Run<'_> {
             }
         }
         self.core.modes.check_feed(at)?;
+        self.shorter_pecks(cycle, at)?;
         let hole = self.hole(cycle, at)?;
         self.check_depth(hole.axis, at);
         let repeats = self.words.take(b'L').or_else(|| {
@@ -156,6 +174,39 @@ impl Run<'_> {
         Ok(())
     }
 
+    /// I, J and K of G73 and G83 of HAAS: the first peck, by how much each next is less, and the least.
+    ///
+    /// # Source
+    /// Haas Automation, "Mill Operator's Manual" (96-8000), G73 and G83. What I, J or K mean beside Q differs between the
+    /// two cycles and is left out.
+    fn shorter_pecks(&mut self, cycle: Cycle, at: usize) -> Result<(), Fault> {
+        let pecks = matches!(cycle, Cycle::Peck | Cycle::ChipBreaking);
+        if !pecks || self.current().dialect().control != Control::Haas {
+            return Ok(());
+        }
+        let unit = self.core.modes.unit_mm();
+        let words = b"IJK".map(|l| self.words.take_away(l).map(|value| value * unit));
+        if self.words.look(b'Q').is_some() {
+            self.modes.cycle.shrink_mm = None;
+            if words != [None; 3] {
+                self.core.left_out("I, J or K beside Q in G73 or G83", at);
+            }
+            return Ok(());
+        }
+        match words {
+            [None, None, None] => {}
+            [Some(first), Some(less), Some(least)] if first > 0.0 && less >= 0.0 && least > 0.0 => {
+                let memory = &mut self.modes.cycle;
+                (memory.shrink_mm, memory.peck_mm) = (Some([first, less]), Some(least));
+            }
+            _ => {
+                let message = "the cycle needs I, J and K, or Q alone";
+                return Err(fault("cycle-without-q", at, message, "write I10. J2. K3."));
+            }
+        }
+        Ok(())
+    }
+
     fn hole(&mut self, cycle: Cycle, at: usize) -> Result<Hole, Fault> {
         let axis = self.core.modes.plane.axes()[2];
         let now = self.frames.position[axis];
@@ -201,9 +252,10 @@ impl Run<'_> {
         let memory = &mut self.modes.cycle;
         (memory.r_mm, memory.depth_mm, memory.last) = (kept_r, kept_depth, Some(cycle));
         (memory.peck_mm, memory.dwell_s) = (peck, dwell_s);
+        let shrink = memory.shrink_mm;
         let clear = if self.modes.retract_to_r { r } else { r.max(begin) };
         let peck = peck.unwrap_or(0.0);
-        Ok(Hole { axis: axis as usize, r, begin, bottom, clear, peck, dwell_s })
+        Ok(Hole { axis: axis as usize, r, begin, bottom, clear, peck, shrink, dwell_s })
     }
 
     /// What the drill does from R on.
@@ -213,25 +265,21 @@ impl Run<'_> {
         let turn = |turning| Stroke::Event(Event::Spindle(turning));
         let (wait, out) = (Stroke::Dwell(hole.dwell_s), Stroke::Rapid(hole.clear));
         let mut strokes = match cycle {
-            // By Q at a time; a chip is broken by 0.010 inch, a deep hole is left to R each time.
-            Cycle::Peck | Cycle::ChipBreaking => {
-                let depths = (1..).map(|n| hole.r - f64::from(n) * hole.peck);
-                let depths = depths.take_while(|depth| *depth > hole.bottom);
-                pecks(depths.chain([hole.bottom]), |depth, strokes| {
-                    strokes.extend((cycle == Cycle::Peck).then_some(Stroke::Rapid(hole.r)));
-                    strokes.push(Stroke::Rapid(depth + CLEARANCE_MM));
-                })
-            }
+            // A chip is broken by 0.010 inch, a deep hole is left to R each time.
+            Cycle::Peck | Cycle::ChipBreaking => pecks(hole.depths(), |depth, strokes| {
+                strokes.extend((cycle == Cycle::Peck).then_some(Stroke::Rapid(hole.r)));
+                strokes.push(Stroke::Rapid(depth + CLEARANCE_MM));
+            }),
             _ => vec![Stroke::Linear(hole.bottom)],
         };
         match cycle {
             Cycle::TapLeft | Cycle::TapRight => {
                 strokes.extend([turn(SpindleDirection::Stopped), turn(reversed(turning)), wait]);
-                strokes.extend([
-                    Stroke::Linear(hole.clear),
-                    turn(SpindleDirection::Stopped),
-                    turn(turning),
-                ]);
+                // FANUC feeds out to R and goes on with rapid, LinuxCNC feeds all the way.
+                let out_of = if self.is_fanuc() { hole.r } else { hole.clear };
+                strokes.extend([Stroke::Linear(out_of), turn(SpindleDirection::Stopped)]);
+                strokes.push(turn(turning));
+                strokes.extend((out_of != hole.clear).then_some(out));
             }
             Cycle::Bore | Cycle::BoreDwell => {
                 strokes.extend((cycle == Cycle::BoreDwell).then_some(wait));

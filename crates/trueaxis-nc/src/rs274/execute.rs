@@ -131,6 +131,7 @@ impl Run<'_> {
         self.units_before_feed(actions);
         self.feed_speed_tool(block)?;
         let further = self.reselect_modes(actions, block)?;
+        let own = self.words_of_call(actions);
         let mut moved = false;
         let machine = actions.iter().any(|(a, _)| *a == Action::MachineCoordinates);
         let taken = actions.iter().any(|(a, _)| a.takes_axis_words());
@@ -152,9 +153,13 @@ impl Run<'_> {
                     moved = true;
                 }
                 Action::Turning(code) => return self.turning(*code, *at, block),
-                Action::Call => return self.subprogram_call(block),
-                Action::LocalCall => return self.local_call(block),
-                Action::Return => return self.subprogram_return(block),
+                Action::Call | Action::LocalCall | Action::Return => {
+                    if !moved && !taken {
+                        self.modal_motion(machine, block)?;
+                    }
+                    own.into_iter().flatten().try_for_each(|(l, v, p)| self.words.put(l, v, p))?;
+                    return self.call_or_return(*action, block);
+                }
                 Action::End | Action::Stop(_) if !moved && !taken => {
                     self.modal_motion(machine, block)?;
                     moved = true;
@@ -170,6 +175,24 @@ impl Run<'_> {
             self.modal_motion(machine, block)?;
         }
         Ok(Next::Following)
+    }
+
+    /// P and L of a call or return, which follow the move of their block: no cycle may take them as its own.
+    fn words_of_call(&mut self, actions: &[(Action, usize)]) -> [Option<(u8, f64, usize)>; 2] {
+        let calls = |a: &Action| matches!(a, Action::Call | Action::LocalCall | Action::Return);
+        if !actions.iter().any(|(a, _)| calls(a)) {
+            return [None; 2];
+        }
+        let words = &mut self.words;
+        [b'P', b'L'].map(|l| words.take_away(l).map(|value| (l, value, words.place(l))))
+    }
+
+    fn call_or_return(&mut self, action: Action, block: &Block) -> Result<Next, Fault> {
+        match action {
+            Action::Call => self.subprogram_call(block),
+            Action::LocalCall => self.local_call(block),
+            _ => self.subprogram_return(block),
+        }
     }
 
     /// The motion lasts; G31 of FANUC is for one block.

@@ -133,7 +133,7 @@ impl Run<'_> {
         let elements = self.contour_of(text_of(parameters, 0), cut.feeds[0], at)?;
         let path = match centre_path(&elements, left_mm, self.modes.behaviour.rules) {
             Some(Ok(path)) => path,
-            Some(Err(gouge)) => return Err(mistakes::gouge(&gouge, left_mm.abs(), None, at)),
+            Some(Err(gouge)) => return Err(mistakes::gouge(gouge, left_mm.abs(), None, at)),
             None => return Err(bad_contour("the contour of CYCLE72 has no line and no arc", at)),
         };
         self.mill_along(&cut, &path, &ways, kind, at)

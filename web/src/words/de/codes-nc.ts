@@ -120,6 +120,7 @@ export const codes: Dictionary = {
   "cycle-without-r": "Rückzugsebene des Zyklus fehlt",
   "cycle-without-q": "Zustelltiefe des Zyklus fehlt",
   "cycle-without-depth": "Bohrtiefe fehlt oder unzulässig",
+  "cycle-depth-zero": "Zyklus mit Tiefe 0 wird nicht ausgeführt",
   "cycle-without-pitch": "Gewindesteigung fehlt",
   "cycle-r-below-bottom": "Rückzugsebene unter dem Bohrungsgrund",
   "cycle-heights": "Zyklusebenen in falscher Reihenfolge",

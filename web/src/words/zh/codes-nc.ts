@@ -120,6 +120,7 @@ export const codes: Dictionary = {
   "cycle-without-r": "循环缺少退刀平面",
   "cycle-without-q": "循环缺少每次啄钻深度",
   "cycle-without-depth": "钻孔深度缺失或无效",
+  "cycle-depth-zero": "深度为 0 的循环不执行",
   "cycle-without-pitch": "缺少螺距",
   "cycle-r-below-bottom": "退刀平面低于孔底",
   "cycle-heights": "循环各平面高度顺序错误",
