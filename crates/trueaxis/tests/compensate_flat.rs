@@ -395,7 +395,7 @@ fn law_what_fits_only_with_optional_blocks_is_not_proved() {
         ),
         (
             Control::Fanuc,
-            "G21 G90 G94 F500.\nG0 X100. Y100. Z-50.\nG1 X150. Y150. Z-51.\n/ G1 X160. Y160. Z-52.\nG1 X170. Y150. Z-50.\nM30\n",
+            "G21 G90 G94 F500.\nG0 X100. Y100. Z-50.\nG1 X150. Y150. Z-51.\n/ G1 X160. Y155. Z-52.\nG1 X170. Y160. Z-53.\nM30\n",
         ),
         (
             Control::Heidenhain,

@@ -543,7 +543,7 @@ fn a_length_that_is_not_on_is_named_where_the_proof_fails() {
         let program = Program::new("p.nc", text.as_bytes().to_vec(), Control::Fanuc);
         let done = compensate_program(&mill, &program, setup, &ProgramOptions::default());
         let Some(rewritten) = done.0 else { panic!("{text} {:?}", done.1) };
-        let found = rewritten.unproved.iter().find(|d| d.code == "other-tool-length");
+        let found = rewritten.unproved.iter().find(|d| d.code == "tool-length-differs");
         assert_eq!(found.is_none(), rewritten.is_proved(), "{text}");
         found.map(|d| (d.place.line, d.message.clone()))
     };

@@ -245,7 +245,7 @@ export const codes: Dictionary = {
   "not-converged": "Korrektur konvergiert nicht",
   "not-proved": "Nachweis der Restabweichung nicht erbracht",
   "optional-blocks": "Ohne Ausblendsätze ein anderer Weg",
-  "other-tool-length": "Andere Werkzeuglänge wirksam",
+  "tool-length-differs": "Andere Werkzeuglänge wirksam",
   "tool-length-needed": "Werkzeuglänge nicht angegeben",
   "turning-dynamic-offset": "Korrektur dreht Rundachsen bei aktivem G254",
   "no-field": "Abweichungsfeld des Rohteils nicht bestimmbar",

@@ -245,7 +245,7 @@ export const codes: Dictionary = {
   "not-converged": "修正迭代不收敛",
   "not-proved": "残余偏差未通过验证",
   "optional-blocks": "跳过可选程序段时路径不同",
-  "other-tool-length": "生效的刀具长度不符",
+  "tool-length-differs": "生效的刀具长度不符",
   "tool-length-needed": "未给出刀具长度",
   "turning-dynamic-offset": "G254 有效时修正转动回转轴",
   "no-field": "毛坯偏差场无法确定",

@@ -48,7 +48,7 @@ pub(super) struct OtherLength {
 }
 
 impl OtherLength {
-    /// Told where the proof fails: the tip cannot be where the program says.
+    /// Where the proof fails: the tip cannot be where the program says.
     pub fn tell(&self, file: &str, found: &mut Diagnostics) {
         let Self { line, tool, on_mm, length_mm } = self;
         let message = match *on_mm == 0.0 {
@@ -62,7 +62,7 @@ impl OtherLength {
         let hint = "switch its length on (G43 H); if the work offset contains the length, leave [tool.N] out of the \
                     set-up: the tool of the machine file is taken";
         let place = Place { file: file.to_owned(), line: *line as usize, column: 1 };
-        found.warn("other-tool-length", place, message, hint);
+        found.warn("tool-length-differs", place, message, hint);
     }
 }
 

@@ -73,7 +73,7 @@ pub(super) fn check(
     if !is_same {
         let place = Place { file: program.file().to_owned(), line: line as usize, column: 1 };
         let message = "without its optional blocks (/) the written program would go elsewhere than the program";
-        let hint = "it is written for their being executed; delete them, or their marks, and compensate what is left";
+        let hint = "it is written for their being executed; delete them, or their marks, and compensate the rest";
         done.unproved.warn("optional-blocks", place, message.to_owned(), hint);
     }
 }
