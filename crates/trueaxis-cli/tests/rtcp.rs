@@ -126,6 +126,33 @@ fn what_no_reading_tells_is_said() {
 }
 
 #[test]
+fn readings_that_fit_better_than_their_noise_are_doubted() {
+    let folder = Folder::new("rtcp-below-noise");
+    let plain = study("i5-engraver", "", "");
+    let words = "of the noise: no indicator reads so well";
+    reported(&folder, &plain, &table(), 0, "small-readings", words);
+    // As they scatter by their noise, nothing is said.
+    let mut seed = 1_u32;
+    let scattered = table().replace("0.3,-0.2,0.1", "scattered");
+    let rows = scattered.split("scattered").map(|row| {
+        let mut next = || {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(seed >> 16) / 65536.0 * 3.4 - 1.7
+        };
+        (row.to_owned(), format!("{:.3},{:.3},{:.3}", next(), next(), next()))
+    });
+    let rows: Vec<_> = rows.collect();
+    let last = rows.len() - 1;
+    let text: String = rows.iter().enumerate().fold(String::new(), |text, (i, (row, read))| {
+        text + row + if i < last { read } else { "" }
+    });
+    folder.file("t.csv", text);
+    let ran = trueaxis(&["identify", "rtcp", &folder.file("study.toml", plain)]);
+    assert_eq!(ran.status, 0, "{}", ran.out);
+    assert!(!ran.err.contains("small-readings"), "{}", ran.err);
+}
+
+#[test]
 fn readings_that_do_not_fit() {
     let folder = Folder::new("rtcp-noise");
     // Noise is 1 µm, and these scatter by 20.

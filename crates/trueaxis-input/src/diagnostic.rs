@@ -179,3 +179,19 @@ impl Diagnostics {
         self.0.iter()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Diagnostics, Place};
+
+    #[test]
+    fn what_is_found_twice_is_said_once() {
+        let at = |line| Place { file: "f".to_owned(), line, column: 1 };
+        let mut found = Diagnostics::new();
+        for line in [1, 2, 1, 1] {
+            found.error("wrong-unit", at(line), "a length is expected".to_owned(), "mm");
+        }
+        found.warn("wrong-unit", at(1), "a length is expected".to_owned(), "mm");
+        assert_eq!(found.iter().map(|d| d.place.line).collect::<Vec<_>>(), [1, 2, 1]);
+    }
+}

@@ -37,7 +37,9 @@ use trueaxis_measure::unknowns::unlisted::Follows;
 /// The residual from which on the conventions are checked unasked, in units of the noise.
 const SUSPICIOUS: f64 = 5.0;
 /// Readings that fit to a smaller part of the noise without any error of the machine have another unit, or another noise.
-const BELOW_NOISE: f64 = 0.1;
+pub const BELOW_NOISE: f64 = 0.1;
+/// Fewer degrees of freedom fit well by chance. Unit: 1.
+pub const LEAST_FREEDOM: f64 = 5.0;
 
 /// An unknown and what was found of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -277,7 +279,7 @@ pub fn identify(
     });
     match identified {
         Ok((mut found, other)) => {
-            found.verdict = doubted(found.verdict, other, &found.score);
+            found.verdict = found.doubted(other);
             found.sequence = sequence.map(|mut sequence| {
                 let values: Vec<Value> = found.found.iter().map(|f| f.value).collect();
                 compare(&mut sequence, &values, &place, problems);
@@ -298,14 +300,26 @@ pub fn identify(
     }
 }
 
-/// Readings that can't be right are not explained, however well a model fits them.
-fn doubted(verdict: Verdict, contradicting: Option<String>, score: &Score) -> Verdict {
-    match contradicting {
-        // A machine without errors would leave the whole noise.
-        _ if score.before.noise < BELOW_NOISE => Verdict::BelowNoise(score.before.noise),
-        Some(instrument) if verdict.is_good() => Verdict::InstrumentsContradict(instrument),
-        _ => verdict,
+impl Identification {
+    /// Readings that can't be right are not explained, however well a model fits them.
+    fn doubted(&self, contradicting: Option<String>) -> Verdict {
+        match (below_noise(&self.design, &self.fit, &self.score), contradicting) {
+            (Some(part), _) => Verdict::BelowNoise(part),
+            (None, Some(instrument)) if self.verdict.is_good() => {
+                Verdict::InstrumentsContradict(instrument)
+            }
+            _ => self.verdict.clone(),
+        }
     }
+}
+
+/// What the set-up alone leaves, as a part of the noise, where it is far smaller: a machine without errors would leave
+/// the whole noise.
+fn below_noise(design: &Design, fit: &Fit, score: &Score) -> Option<f64> {
+    let numbers = (fit.degrees_of_freedom + fit.sight.rank) as f64;
+    let freedom = numbers - (design.unknowns() - design.terms.len()) as f64;
+    let part = score.before.noise * (numbers / freedom).sqrt();
+    (freedom >= LEAST_FREEDOM && part < BELOW_NOISE).then_some(part)
 }
 
 /// The stages, what all readings at once start from, and how they are evaluated.
@@ -426,7 +440,8 @@ impl<'a> Work<'a> {
         let determined = adequacy.explained.listed.clone();
         let influences = influences(design, readings, &self.weights, &self.fit);
         let left_out = self.candidates.maybe.iter().filter(|k| !self.numbers.contains(k));
-        let suspicious = score.in_sample.noise > SUSPICIOUS || score.before.noise < BELOW_NOISE;
+        let suspicious =
+            score.in_sample.noise > SUSPICIOUS || below_noise(design, &self.fit, &score).is_some();
         let unobservable = |c: &Confusion| Unobservable::of(campaign, &self.whole, c);
         Ok(Identification {
             found: found(design, &determined, &adequacy.explained.degrees_of_freedom),

@@ -52,8 +52,9 @@ impl Hole {
             return depths.take_while(|d| *d > self.bottom).chain([self.bottom]).collect();
         };
         let shorter = |stroke: f64| (stroke - less).max(self.peck);
-        let depths = peck_depths(self.r - self.bottom, first, MOST_PECKS as usize, shorter);
-        depths.map_or(vec![self.bottom], |d| d.iter().map(|d| self.r - d).collect())
+        // Each is `self.peck` at least, by which their number was checked.
+        let depths = peck_depths(self.r - self.bottom, first, usize::MAX, shorter);
+        depths.unwrap_or_default().iter().map(|d| self.r - d).collect()
     }
 }
 

@@ -5,6 +5,7 @@ use super::control::Slot;
 use nalgebra::DMatrix;
 use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis_calibrate::identify::errors::{BELOW_NOISE, LEAST_FREEDOM};
 use trueaxis_input::Place;
 
 /// A combination of offsets that changes no reading.
@@ -100,7 +101,7 @@ impl Calibration {
     pub fn below_noise(&self) -> Option<f64> {
         let freedom = self.degrees_of_freedom as f64;
         let part = (self.chi_square / freedom.max(1.0)).sqrt();
-        (freedom >= 5.0 && part < 0.1).then_some(part)
+        (freedom >= LEAST_FREEDOM && part < BELOW_NOISE).then_some(part)
     }
 
     /// Whether every offset was found.

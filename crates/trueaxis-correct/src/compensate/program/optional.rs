@@ -30,7 +30,9 @@ pub(super) fn first(program: &Program) -> Option<u32> {
         let after = numbered[digits..].trim_ascii_start();
         text.first() == Some(&b'/') || digits > 0 && after.first() == Some(&b'/')
     };
-    let mut lines = program.source().split(|b| *b == b'\n');
+    // Most programs have none.
+    let source = Some(program.source()).filter(|source| source.contains(&b'/'))?;
+    let mut lines = source.split(|b| *b == b'\n');
     lines.position(begins).map(|line| line as u32 + 1)
 }
 
