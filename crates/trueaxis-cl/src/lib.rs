@@ -76,12 +76,27 @@ pub struct ClCycle {
     /// Height above the point to which the tool retracts at the end, and at which it goes to the next
     /// hole.
     pub retract_mm: f64,
+    /// The tool goes back to the height from which it came to the hole, if that is higher: RTRCTO,AUTO.
+    pub to_begin: bool,
     /// The depth of the first peck and of each further one; the tool leaves the hole after each.
     pub pecks_mm: Option<[f64; 2]>,
     /// Dwell at the bottom, s.
     pub dwell_s: f64,
+    /// The tool leaves the hole with feed: a reamer.
+    pub feeds_out: bool,
     /// The feed of drilling, if the cycle states one.
     pub feed: Option<Feed>,
+}
+
+/// A tool that is loaded.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ClTool {
+    /// Its number.
+    pub number: u32,
+    /// The number under which the control keeps its length, where it is stated.
+    pub offset: Option<u32>,
+    /// Its length, where it is stated, mm.
+    pub length_mm: Option<f64>,
 }
 
 /// The content of a record.
@@ -102,8 +117,8 @@ pub enum Word {
     Spindle(SpindleDirection, Option<f64>),
     /// COOLNT.
     Coolant(Coolant),
-    /// LOADTL, LOAD/TOOL: the tool number.
-    Tool(u32),
+    /// LOADTL, LOAD/TOOL, TURRET.
+    Tool(ClTool),
     /// CUTTER: the cutter.
     Cutter {
         /// Cutting diameter, mm.

@@ -19,10 +19,11 @@ pub(super) fn is_direction(norm: f64) -> bool {
     norm > 1e-3 && norm < 1e9
 }
 
-pub(super) fn tool_number(text: &str) -> Result<u32, Fault> {
+/// The number of a tool or of an offset.
+pub(super) fn whole_number(text: &str) -> Result<u32, Fault> {
     match number(text)? {
-        n if (0.0..1e8).contains(&n) => Ok(n as u32),
-        n => Err(("bad-tool", format!("{n} is not a tool number"), "write LOADTL/1")),
+        n if (0.0..1e8).contains(&n) && n.fract() == 0.0 => Ok(n as u32),
+        n => Err(("bad-tool", format!("{n} is not the number of a tool"), "write LOADTL/1")),
     }
 }
 
@@ -30,7 +31,8 @@ pub(super) fn number(text: &str) -> Result<f64, Fault> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
         _ => {
-            let shown: String = text.chars().take(40).collect();
+            let words: Vec<&str> = text.split_whitespace().collect();
+            let shown: String = words.join(" ").chars().take(40).collect();
             let message = match text.is_empty() {
                 true => "a number is missing".to_owned(),
                 false => format!("`{shown}` is not a number"),

@@ -1,22 +1,23 @@
 //! From statements to records: units, modal words and diagnostics.
 
-use super::numbers::{Fault, is_direction, is_near, norm, number, tool_number};
+mod circle;
+mod cycle;
+mod technology;
+
+use super::numbers::{Fault, is_direction, is_near, norm, number};
 use super::plain::{self, PlainPoint};
 use super::scan::{Scanner, Statement};
 use super::words::{Major, major};
-use super::{ClCircle, ClCycle, ClPoint, Reading, Word};
+use super::{ClCycle, ClPoint, Reading, Word};
 use std::collections::HashSet;
 use std::ops::Range;
 use trueaxis_input::{Diagnostics, Place, in_order, usual_threads};
-use trueaxis_nc::moves::{Coolant, Feed, FeedMode, SpindleDirection};
+use trueaxis_nc::moves::Feed;
 
 const INCH_MM: f64 = 25.4;
 
 /// Largest number of listed problems.
 const MAX_PROBLEMS: usize = 100;
-
-/// Pecks of one hole: more than any file means.
-const MOST_PECKS: f64 = 1e5;
 
 /// Deviation of the length of a tool axis from 1 above which a warning is given.
 const NORM_TOLERANCE: f64 = 1e-4;
@@ -68,18 +69,29 @@ struct Reader<'n> {
     unit_mm: f64,
     units_given: bool,
     /// The vector of TLAXIS.
+    stated_axis: Option<[f64; 3]>,
+    /// That of the last point with a vector, or of TLAXIS after it.
     axis: Option<[f64; 3]>,
     /// The last coordinate system that Creo stated.
     system: Option<Vec<f64>>,
+    /// The last one that NX stated.
+    frame: Option<Vec<f64>>,
     /// TLAXIS was declared a comment by SYN.
     no_tool_axis: bool,
     multi_axis: bool,
-    /// The numbers of points so far with and without a vector.
-    points: [usize; 2],
-    first_without: u32,
+    points: usize,
+    /// Those without any tool axis: their number and the first line.
+    upright: (usize, u32),
+    /// Those that keep a tilted axis of a point before: their number and the first line.
+    kept: (usize, u32),
     rapid: bool,
     feed: Option<Feed>,
     tip_mm: Option<[f64; 3]>,
+    technology: technology::Technology,
+    /// The last cycle, for CYCLE/ON.
+    cycle: Option<ClCycle>,
+    /// The line of FINI or END.
+    ended: Option<u32>,
     /// Points whose vector is not of length 1: their number, the first line, the worst length.
     off: (usize, u32, f64),
 }
@@ -95,15 +107,21 @@ impl<'n> Reader<'n> {
             count: 0,
             unit_mm,
             units_given: false,
+            stated_axis: None,
             axis: None,
             system: None,
+            frame: None,
             no_tool_axis: false,
             multi_axis: false,
-            points: [0; 2],
-            first_without: 0,
+            points: 0,
+            upright: (0, 0),
+            kept: (0, 0),
             rapid: false,
             feed: None,
             tip_mm: None,
+            technology: technology::Technology::default(),
+            cycle: None,
+            ended: None,
             off: (0, 0, 1.0),
         }
     }
@@ -136,20 +154,29 @@ impl<'n> Reader<'n> {
     }
 
     fn finish(mut self) -> Diagnostics {
-        let all = self.points[0] + self.points[1];
+        let all = self.points;
         if all == 0 {
             let message = "the file has no point (GOTO)".to_owned();
             let hint = "expected a cutter-location file in APT, or a table x y z i j k";
             self.problems.error("no-points", Place::whole(self.name), message, hint);
         }
-        if self.points[1] > 0 && self.axis.is_none() {
+        let (count, first) = self.upright;
+        if count > 0 {
             let message = format!(
-                "{} of {all} points have no tool axis (the first is here): 0 0 1 is assumed",
-                self.points[1]
+                "{count} of {all} points have no tool axis (the first is here): 0 0 1 is assumed"
             );
             let hint = "for more than three axes write MULTAX/ON and GOTO/x,y,z,i,j,k";
-            self.problems.warn("no-tool-axis", self.place(self.first_without), message, hint);
+            self.problems.warn("no-tool-axis", self.place(first), message, hint);
         }
+        let (count, first) = self.kept;
+        if count > 0 {
+            let message = format!(
+                "{count} of {all} points have no tool axis (the first is here): that of the point before is kept"
+            );
+            let hint = "write TLAXIS/0,0,1 or MULTAX/OFF where the tool stands upright again";
+            self.problems.note("tool-axis-kept", self.place(first), message, hint);
+        }
+        self.technology_is_clear();
         let (count, line, worst) = self.off;
         if count > 0 {
             let message = format!(
@@ -178,6 +205,11 @@ impl<'n> Reader<'n> {
         let Some(major) = major(&s.word) else {
             if is_heading(s) {
                 return Word::Noted;
+            }
+            if moves(s) {
+                let message = format!("`{}` stands before a motion, which would be lost", s.word);
+                self.error(s.line, ("unknown-motion", message, "begin the line with GOTO"));
+                return Word::Unknown;
             }
             let message = format!("unknown word `{}`: it is kept, but has no effect", s.word);
             self.warn("unknown-word", &s.word, s.line, message, "check whether it moves the tool");
@@ -241,21 +273,24 @@ impl<'n> Reader<'n> {
                 Word::From(point)
             }
             Major::Circle => Word::Circle(self.circle(s)?),
+            Major::Rapid if s.argument(0).eq_ignore_ascii_case("OFF") => {
+                self.rapid = false;
+                Word::Noted
+            }
             Major::Rapid => {
                 self.rapid = true;
                 Word::Rapid
             }
             Major::Feed => self.feed_word(s)?,
             Major::Spindle => self.spindle(s)?,
-            Major::Coolant => Word::Coolant(match s.argument(0).to_ascii_uppercase().as_str() {
-                "OFF" => Coolant::Off,
-                "MIST" => Coolant::Mist,
-                _ => Coolant::Flood,
-            }),
-            Major::LoadTool => Word::Tool(tool_number(s.argument(0))?),
-            Major::Load if s.argument(0).eq_ignore_ascii_case("TOOL") => {
-                Word::Tool(tool_number(s.argument(1))?)
+            Major::Coolant => self.coolant(s),
+            Major::LoadTool => self.tool(s, 0)?,
+            Major::Load if s.argument(0).eq_ignore_ascii_case("TOOL") => self.tool(s, 1)?,
+            Major::Select => {
+                self.technology.selected.get_or_insert(s.line);
+                Word::Noted
             }
+            Major::Frame => self.frame(s)?,
             Major::Cutter => Word::Cutter {
                 diameter_mm: number(s.argument(0))? * self.unit_mm,
                 corner_radius_mm: match s.argument(1) {
@@ -266,15 +301,29 @@ impl<'n> Reader<'n> {
             Major::ToolAxis => self.tool_axis(s)?,
             Major::MultiAxis => {
                 self.multi_axis = !s.argument(0).eq_ignore_ascii_case("OFF");
+                if !self.multi_axis {
+                    self.axis = self.stated_axis;
+                }
                 Word::MultiAxis(self.multi_axis)
             }
             Major::Units => self.units(s)?,
             Major::Cycle => self.cycle(s)?,
             Major::Delay => self.delay(s)?,
             Major::Stop(optional) => Word::Stop { optional },
-            Major::Insert => Word::Insert(s.rest().to_owned()),
+            Major::Insert => {
+                let message =
+                    "INSERT is written as a comment: its text may be words or none".to_owned();
+                let hint = "put words of the control into the program, or into a template";
+                self.warn("not-applied", "INSERT", s.line, message, hint);
+                Word::Insert(s.rest().to_owned())
+            }
             Major::Comment => Word::Comment(s.rest().to_owned()),
-            Major::End => Word::End,
+            // END-OF-PATH of NX ends one of several.
+            Major::End if s.text.trim_start()[s.word.len()..].starts_with('-') => Word::Noted,
+            Major::End => {
+                self.ended = Some(s.line);
+                Word::End
+            }
             Major::Synonym => self.synonym(s),
             Major::Noted | Major::Load => Word::Noted,
             Major::NotApplied(what) => self.not_applied(what, s),
@@ -331,10 +380,29 @@ impl<'n> Reader<'n> {
                 return Err(("bad-point", message, "write GOTO/x,y,z or GOTO/x,y,z,i,j,k"));
             }
         };
-        let axis = self.axis_of_point(axis, s)?;
+        self.moved(tip_mm, axis, s)
+    }
+
+    /// The point that the tool goes to.
+    fn moved(
+        &mut self,
+        tip_mm: [f64; 3],
+        own: Option<[f64; 3]>,
+        s: &Statement,
+    ) -> Result<ClPoint, Fault> {
+        let axis = self.axis_of_point(own, s)?;
+        self.warn_after_end(s.line);
         self.tip_mm = Some(tip_mm);
         let rapid = std::mem::take(&mut self.rapid);
         Ok(ClPoint { tip_mm, axis, rapid, feed: self.feed })
+    }
+
+    fn warn_after_end(&mut self, line: u32) {
+        if let Some(ended) = self.ended.take() {
+            let message = format!("the file ended in line {ended}; what follows is machined, too");
+            let hint = "cut the file there if it should not be";
+            self.warn("goes-on-after-end", "", line, message, hint);
+        }
     }
 
     /// A point in its plain form; none where it has to be read as any other statement.
@@ -346,24 +414,40 @@ impl<'n> Reader<'n> {
             return None;
         }
         self.note_norm(norm, line);
-        self.points[0] += 1;
-        self.tip_mm = Some(tip_mm);
+        self.warn_after_end(line);
+        self.points += 1;
+        let axis = vector.map(|v| v / norm);
+        (self.tip_mm, self.axis) = (Some(tip_mm), Some(axis));
         let rapid = std::mem::take(&mut self.rapid);
-        Some(ClPoint { tip_mm, axis: vector.map(|v| v / norm), rapid, feed: self.feed })
+        Some(ClPoint { tip_mm, axis, rapid, feed: self.feed })
     }
 
+    /// The tool axis of a point: its own, or else that of TLAXIS or of the point before, whichever is the last;
+    /// NX writes a vector where it changes.
     fn axis_of_point(&mut self, own: Option<[f64; 3]>, s: &Statement) -> Result<[f64; 3], Fault> {
-        self.points[usize::from(own.is_none())] += 1;
-        if own.is_none() && self.points[1] == 1 {
-            self.first_without = s.line;
-        }
-        match own.or(self.axis) {
-            Some(axis) => Ok(axis),
-            None if self.multi_axis => {
-                let message = "the point has no tool axis, but MULTAX is on".to_owned();
-                Err(("no-tool-axis", message, "write GOTO/x,y,z,i,j,k, or TLAXIS before it"))
+        self.points += 1;
+        let count =
+            |(count, line): (usize, u32)| (count + 1, if count == 0 { s.line } else { line });
+        match (own, self.axis) {
+            (Some(axis), _) => {
+                self.axis = Some(axis);
+                Ok(axis)
             }
-            None => Ok([0.0, 0.0, 1.0]),
+            (None, Some(axis)) => {
+                if self.stated_axis != Some(axis) && axis[2] < 1.0 {
+                    self.kept = count(self.kept);
+                }
+                Ok(axis)
+            }
+            (None, None) => {
+                self.upright = count(self.upright);
+                if self.multi_axis {
+                    let message = "the point has no tool axis, but MULTAX is on".to_owned();
+                    let hint = "write GOTO/x,y,z,i,j,k, or TLAXIS before it";
+                    return Err(("no-tool-axis", message, hint));
+                }
+                Ok([0.0, 0.0, 1.0])
+            }
         }
     }
 
@@ -389,90 +473,39 @@ impl<'n> Reader<'n> {
     }
 
     fn delta(&mut self, s: &Statement) -> Result<ClPoint, Fault> {
-        let step = match s.count() {
+        let (step, axis) = match s.count() {
             // Along the tool axis.
             1 => {
                 let length = number(s.argument(0))? * self.unit_mm;
-                self.axis.unwrap_or([0.0, 0.0, 1.0]).map(|v| v * length)
+                (self.axis.unwrap_or([0.0, 0.0, 1.0]).map(|v| v * length), None)
             }
-            _ => self.place_mm(s)?,
+            3 => (self.place_mm(s)?, None),
+            6 => (self.place_mm(s)?, Some(self.vector(s, 3)?)),
+            count => {
+                let message = format!("a step has 1, 3 or 6 numbers, not {count}");
+                return Err(("bad-point", message, "write GODLTA/dx,dy,dz or GODLTA/length"));
+            }
         };
         let Some(now) = self.tip_mm else {
             let message = "GODLTA is before the first point".to_owned();
             return Err(("no-place", message, "write GOTO or FROM before it"));
         };
-        let tip_mm: [f64; 3] = std::array::from_fn(|i| now[i] + step[i]);
-        let axis = self.axis_of_point(None, s)?;
-        self.tip_mm = Some(tip_mm);
-        let rapid = std::mem::take(&mut self.rapid);
-        Ok(ClPoint { tip_mm, axis, rapid, feed: self.feed })
+        self.moved(std::array::from_fn(|i| now[i] + step[i]), axis, s)
     }
 
-    fn circle(&mut self, s: &Statement) -> Result<ClCircle, Fault> {
-        let center_mm = self.place_mm(s)?;
-        let normal = match s.count() {
-            6 | 7 => self.numbers::<3>(s, 3)?,
-            count => {
-                let message = format!("a circle has 6 or 7 numbers, not {count}");
-                return Err(("bad-circle", message, "write CIRCLE/x,y,z,i,j,k,radius"));
-            }
-        };
-        let norm = norm(&normal);
-        if !is_direction(norm) {
-            let message = "the normal of the circle has length zero".to_owned();
-            return Err(("bad-circle", message, "write CIRCLE/x,y,z,i,j,k,radius"));
-        }
-        Ok(ClCircle { center_mm, normal: normal.map(|v| v / norm) })
-    }
-
-    fn feed_word(&mut self, s: &Statement) -> Result<Word, Fault> {
-        let (mut value, mut mode, mut unit) = (None, FeedMode::PerMinute, self.unit_mm);
-        for argument in s.arguments() {
-            match argument.to_ascii_uppercase().as_str() {
-                "IPM" => (mode, unit) = (FeedMode::PerMinute, INCH_MM),
-                "MMPM" => (mode, unit) = (FeedMode::PerMinute, 1.0),
-                "IPR" => (mode, unit) = (FeedMode::PerRevolution, INCH_MM),
-                "MMPR" => (mode, unit) = (FeedMode::PerRevolution, 1.0),
-                "PERMIN" => mode = FeedMode::PerMinute,
-                "PERREV" => mode = FeedMode::PerRevolution,
-                "RAPID" => {
-                    self.rapid = true;
-                    return Ok(Word::Rapid);
-                }
-                text if value.is_none() && !text.is_empty() => value = Some(number(text)?),
-                _ => {}
+    /// MSYS of NX: points count in it.
+    fn frame(&mut self, s: &Statement) -> Result<Word, Fault> {
+        let frame: Vec<f64> = s.arguments().filter_map(|text| number(text).ok()).collect();
+        let other = self.frame.as_ref().is_some_and(|before| *before != frame);
+        self.frame = Some(frame);
+        match other && self.points > 0 {
+            false => Ok(Word::Noted),
+            true => {
+                let message = "points count in another coordinate system from here on".to_owned();
+                let hint = "write a file for each coordinate system (MSYS)";
+                Err(("other-coordinate-system", message, hint))
             }
         }
-        let Some(value) = value.filter(|v| *v > 0.0 && *v < 1e9) else {
-            let message = "FEDRAT has no positive number".to_owned();
-            return Err(("bad-feed", message, "write FEDRAT/500,MMPM"));
-        };
-        let feed = Feed { mode, value: value * unit };
-        self.feed = Some(feed);
-        // A feed ends a rapid traverse without motion so far.
-        self.rapid = false;
-        Ok(Word::Feed(feed))
-    }
-
-    fn spindle(&mut self, s: &Statement) -> Result<Word, Fault> {
-        let (mut speed, mut turning) = (None, SpindleDirection::Clockwise);
-        for argument in s.arguments() {
-            match argument.to_ascii_uppercase().as_str() {
-                "OFF" => return Ok(Word::Spindle(SpindleDirection::Stopped, None)),
-                "CLW" | "ON" | "RPM" | "" => {}
-                "CCLW" => turning = SpindleDirection::CounterClockwise,
-                "SFM" | "SMM" | "SURF" => {
-                    let message =
-                        "SPINDL states a surface speed: no spindle speed is written".to_owned();
-                    let hint = "state the speed in rpm, such as SPINDL/RPM,3000,CLW";
-                    self.warn("surface-speed", "", s.line, message, hint);
-                    return Ok(Word::Spindle(turning, None));
-                }
-                text if speed.is_none() => speed = number(text).ok().filter(|v| *v >= 0.0),
-                _ => {}
-            }
-        }
-        Ok(Word::Spindle(turning, speed))
     }
 
     fn tool_axis(&mut self, s: &Statement) -> Result<Word, Fault> {
@@ -480,7 +513,7 @@ impl<'n> Reader<'n> {
             return Ok(Word::Noted);
         }
         let axis = self.vector(s, 0)?;
-        self.axis = Some(axis);
+        (self.axis, self.stated_axis) = (Some(axis), Some(axis));
         Ok(Word::ToolAxis(axis))
     }
 
@@ -493,78 +526,41 @@ impl<'n> Reader<'n> {
                 return Err(("unknown-unit", message, "write UNITS/MM or UNITS/INCHES"));
             }
         };
-        self.units_given = true;
+        let unit_mm = if inches { INCH_MM } else { 1.0 };
+        let was_given = std::mem::replace(&mut self.units_given, true);
+        let has_numbers = self.tip_mm.is_some() || self.feed.is_some();
         if self.reading.inches.is_none() {
-            self.unit_mm = if inches { INCH_MM } else { 1.0 };
+            if has_numbers && unit_mm != self.unit_mm {
+                self.other_units(s, was_given)?;
+            }
+            self.unit_mm = unit_mm;
         }
         Ok(Word::Inches(self.unit_mm == INCH_MM))
     }
 
-    /// CYCLE/DRILL,FEDTO,depth,MMPM,feed,RAPTO,clearance,RTRCTO,retract (SolidWorks, Creo), or
-    /// DEPTH … CLEAR … RETURN (CATIA). CYCLE/DEEP with 1STPECK and SUBPECK, or STEP, pecks.
-    fn cycle(&mut self, s: &Statement) -> Result<Word, Fault> {
-        let kind = s.argument(0).to_ascii_uppercase();
-        if matches!(kind.as_str(), "OFF" | "NOMORE") {
-            return Ok(Word::CycleOff);
+    /// The unit changes after numbers were read.
+    fn other_units(&mut self, s: &Statement, was_given: bool) -> Result<(), Fault> {
+        if !was_given {
+            let message = "UNITS stands after points or feeds, which were read in mm".to_owned();
+            let hint = "put UNITS before the first of them, or state the unit on the command line";
+            return Err(("unit-changes", message, hint));
         }
-        if kind == "INIT" {
-            return Ok(Word::Noted);
-        }
-        let is_drilling = matches!(kind.as_str(), "DRILL" | "FACE" | "REAM" | "CSINK");
-        let named = |names: &[&str]| {
-            let at = s.arguments().position(|a| names.iter().any(|n| a.eq_ignore_ascii_case(n)))?;
-            number(s.argument(at + 1)).ok()
-        };
-        let length = |names: &[&str]| named(names).map(|v| v * self.unit_mm);
-        let Some(depth_mm) = length(&["FEDTO", "DEPTH"]).or_else(|| {
-            // CYCLE/TAP,depth,…
-            number(s.argument(1)).ok().map(|v| v * self.unit_mm)
-        }) else {
-            let message = "the cycle has no depth".to_owned();
-            return Err(("bad-cycle", message, "write CYCLE/DRILL,FEDTO,10,MMPM,200,RAPTO,2"));
-        };
-        let clearance_mm = length(&["RAPTO", "CLEAR"]).unwrap_or(0.0).max(0.0);
-        let feeds = [("MMPM", FeedMode::PerMinute, 1.0), ("IPM", FeedMode::PerMinute, INCH_MM)];
-        let turns =
-            [("MMPR", FeedMode::PerRevolution, 1.0), ("IPR", FeedMode::PerRevolution, INCH_MM)];
-        let feed = feeds.into_iter().chain(turns).find_map(|(name, mode, unit)| {
-            let value = named(&[name]).filter(|v| *v > 0.0)?;
-            Some(Feed { mode, value: value * unit })
-        });
-        let retract_mm = length(&["RTRCTO"]).unwrap_or(clearance_mm).max(clearance_mm);
-        let peck = length(&["SUBPECK", "STEP"]).filter(|v| *v > 0.0);
-        let first = length(&["1STPECK"]).filter(|v| *v > 0.0).or(peck);
-        let deep = kind.starts_with("DEEP");
-        let pecks_mm = first.filter(|_| deep).map(|first| [first, peck.unwrap_or(first)]);
-        if pecks_mm.is_some_and(|[_, peck]| depth_mm / peck > MOST_PECKS) {
-            let message = "the cycle has more than 100,000 pecks".to_owned();
-            return Err(("bad-cycle", message, "check SUBPECK and the units"));
-        }
-        if !is_drilling && pecks_mm.is_none() {
-            let message = format!("CYCLE/{kind} is read as drilling in one stroke");
-            let hint = "pecks and the retraction of the cycle are omitted; check the hole";
-            self.warn("cycle-not-applied", &kind, s.line, message, hint);
-        }
-        let dwell_s = named(&["DWELL"]).filter(|t| (0.0..1e6).contains(t)).unwrap_or(0.0);
-        Ok(Word::Cycle(ClCycle { depth_mm, clearance_mm, retract_mm, pecks_mm, dwell_s, feed }))
-    }
-
-    fn delay(&mut self, s: &Statement) -> Result<Word, Fault> {
-        let time = number(s.argument(0))?;
-        if !(0.0..1e6).contains(&time) {
-            let message = format!("{time} s is not an accepted dwell time");
-            return Err(("bad-delay", message, "write DELAY/1.5, in seconds"));
-        }
-        if s.argument(1).eq_ignore_ascii_case("REV") {
-            let message = "DELAY in revolutions is not applied".to_owned();
-            self.warn("not-applied", "DELAY", s.line, message, "write the time in seconds");
-            return Ok(Word::Noted);
-        }
-        Ok(Word::Delay(time))
+        let message =
+            "the unit of length changes here: numbers before it were read in the other".to_owned();
+        let hint = "check that the file means it";
+        self.warn("unit-changes", "", s.line, message, hint);
+        Ok(())
     }
 }
 
 /// Whether a line contains the headings of a table.
 fn is_heading(s: &Statement) -> bool {
     s.word == "X" || s.word.starts_with("TIP_X")
+}
+
+/// Whether an unknown word is followed by one that moves the tool, as in `N10 GOTO/1,2,3`.
+fn moves(s: &Statement) -> bool {
+    let words = s.text.split(|c: char| !c.is_ascii_alphanumeric());
+    let mut words = words.map(str::to_ascii_uppercase);
+    words.any(|w| matches!(w.as_str(), "GOTO" | "GODLTA" | "CIRCLE" | "CYCLE"))
 }

@@ -13,6 +13,10 @@ pub(super) enum Major {
     Coolant,
     LoadTool,
     Load,
+    /// Chooses a tool, and loads none.
+    Select,
+    /// The coordinate system of the points.
+    Frame,
     Cutter,
     ToolAxis,
     MultiAxis,
@@ -42,8 +46,10 @@ pub(super) fn major(word: &str) -> Option<Major> {
         "FEDRAT" => Major::Feed,
         "SPINDL" => Major::Spindle,
         "COOLNT" => Major::Coolant,
-        "LOADTL" => Major::LoadTool,
+        "LOADTL" | "TURRET" => Major::LoadTool,
         "LOAD" => Major::Load,
+        "TOOLNO" | "SELECT" | "SELCTL" => Major::Select,
+        "MSYS" => Major::Frame,
         "CUTTER" => Major::Cutter,
         "TLAXIS" => Major::ToolAxis,
         "MULTAX" => Major::MultiAxis,
@@ -66,6 +72,12 @@ pub(super) fn major(word: &str) -> Option<Major> {
         ),
         "CALSUB" | "DEFSUB" | "ENDSUB" => Major::NotApplied("subprograms"),
         "THREAD" | "PITCH" => Major::NotApplied("threading"),
+        "AUXFUN" | "PREFUN" => Major::NotApplied("a function of the control"),
+        "OPSKIP" => Major::NotApplied("optional blocks"),
+        "RETRCT" => Major::NotApplied("a retraction of the tool"),
+        "CLAMP" | "LOCKX" => Major::NotApplied("a clamp"),
+        "AIR" => Major::NotApplied("air"),
+        "DNTCUT" | "NOPOST" => Major::NotApplied("a part of the file that is left out"),
         "GOFWD" | "GOLFT" | "GORGT" | "GOBACK" | "GOUP" | "GODOWN" | "GO" | "TLON" | "INDIRV"
         | "INDIRP" => Major::Motion("motion along surfaces"),
         "NURBS" | "SPLINE" | "ARC" | "PARAB" | "HELIX" => Major::Motion("a curve"),
@@ -75,12 +87,10 @@ pub(super) fn major(word: &str) -> Option<Major> {
 }
 
 /// Words of the language, and of the systems that write it, without effect on the path.
-const NOTED: [&str; 60] = [
-    "PPWORD", "CAMERA", "CSYS", "TRNTYP", "SELECT", "SELCTL", "MACHIN", "SWITCH", "TOOLNO",
-    "TURRET", "PPFUN", "REWIND", "INTOL", "OUTTOL", "TOLER", "LINTOL", "CLDIST", "MODE", "HEAD",
-    "HED", "OPSKIP", "SEQNO", "CLRSRF", "CLEARP", "PREFUN", "AUXFUN", "NOPOST", "CLPRNT", "PLOT",
-    "PLABEL", "TLLFT", "TLRGT", "PSIS", "DNTCUT", "CUT", "LOCKX", "CLAMP", "AIR", "OFSTNO",
-    "FEATNO", "MFGNO", "PROCES", "SET", "CHIPS", "BREAK", "LEADER", "RESERV", "TMARK", "RETRCT",
-    "ARCSLP", "TPFORM", "LPRINT", "TITLES", "SAFETY", "TOOLPATH", "MSYS", "PAINT", "STCK", "STOCK",
-    "COMENT",
+const NOTED: [&str; 48] = [
+    "PPWORD", "CAMERA", "CSYS", "TRNTYP", "MACHIN", "SWITCH", "PPFUN", "REWIND", "INTOL", "OUTTOL",
+    "TOLER", "LINTOL", "CLDIST", "MODE", "HEAD", "HED", "SEQNO", "CLRSRF", "CLEARP", "CLPRNT",
+    "PLOT", "PLABEL", "TLLFT", "TLRGT", "PSIS", "CUT", "OFSTNO", "FEATNO", "MFGNO", "PROCES",
+    "SET", "CHIPS", "BREAK", "LEADER", "RESERV", "TMARK", "ARCSLP", "TPFORM", "LPRINT", "TITLES",
+    "SAFETY", "TOOLPATH", "PAINT", "STCK", "STOCK", "COMENT", "TLDATA", "TOOL",
 ];

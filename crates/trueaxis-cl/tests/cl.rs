@@ -5,7 +5,8 @@
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use trueaxis_cl::{ClCircle, ClFile, ClPath, Reading, Word};
+use trueaxis_cl::{ClCircle, ClFile, ClPath, ClTool, Reading, Word};
+use trueaxis_input::Severity;
 use trueaxis_nc::moves::SpindleDirection;
 
 /// A folder or file of the outside data, or `None` with a message.
@@ -64,7 +65,10 @@ fn oracle_cutter_locations_of_others_are_read() {
         }
         let extent = file.extent().unwrap();
         println!("{name}: {} records, {extent:?}, {codes:?}", file.records().len());
-        assert!(!problems.has_errors(), "{problems:?}");
+        let errors = problems.iter().filter(|p| p.severity == Severity::Error).map(|p| p.code);
+        // The file taps, and states no pitch.
+        let wanted: &[&str] = if name.ends_with("DEMO2.txt") { &["motion-not-read"] } else { &[] };
+        assert!(errors.eq(wanted.iter().copied()), "{problems:?}");
         assert_lossless(&file);
         assert_eq!(extent.points, points, "{name}");
         let found = file.records().iter().filter(|r| matches!(r.word, Word::Circle(_))).count();
@@ -103,7 +107,11 @@ fn a_file_by_hand() {
     assert_eq!(points, wanted);
     assert!(file.points().all(|(_, p)| p.axis == [0.0, 0.6, 0.8]));
     let has = |word: Word| file.records().iter().any(|r| r.word == word);
-    assert!(has(Word::Tool(7)) && has(Word::Delay(2.0)) && has(Word::End));
+    assert!(
+        has(Word::Tool(ClTool { number: 7, ..ClTool::default() }))
+            && has(Word::Delay(2.0))
+            && has(Word::End)
+    );
     assert!(has(Word::Cutter { diameter_mm: 10.0, corner_radius_mm: 2.0 }));
     assert!(has(Word::Spindle(SpindleDirection::CounterClockwise, Some(1000.0))));
     assert!(has(Word::Comment("A $ B".to_owned())));

@@ -101,7 +101,12 @@ impl Post<'_> {
             && cycle.clearance_mm >= 0.0
             && cycle.retract_mm >= cycle.clearance_mm - SAME_MM;
         let even = first > 0.0 && (first >= cycle.depth_mm || first == further);
-        if up.norm() > UPRIGHT_RAD || !ends.into_iter().all(still) || !heights || !even {
+        if cycle.feeds_out
+            || up.norm() > UPRIGHT_RAD
+            || !ends.into_iter().all(still)
+            || !heights
+            || !even
+        {
             return None;
         }
         let words = self.words_at(*tip, &at.command)?;

@@ -38,6 +38,9 @@ use trueaxis_nc::Control;
 use trueaxis_writer::{Decimals, Templates, TipWords};
 use write::{Post, Written};
 
+/// Lengths of tools nearer than this are the same, mm.
+const SAME_LENGTH_MM: f64 = 1e-3;
+
 /// How feeds are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum FeedRule {
@@ -180,6 +183,7 @@ pub fn post_path(
     if problems.has_errors() {
         return (None, problems);
     }
+    check_lengths(machine, (&path, &name), options, &mut problems);
     let pole_deviation_rad = axes::pass_poles(&mut path, &control, options.pole_rad);
     match write(machine, &control, &path, options) {
         Ok((Written { text, lines, places, drilled, blocks, arcs }, rewinds)) => {
@@ -203,6 +207,38 @@ pub fn post_path(
             problems.error(fault.code, place, fault.message, fault.hint);
             (None, problems)
         }
+    }
+}
+
+/// Positions of axes contain the length of the tool: another one in the file is said, and so is a tool that it does
+/// not name.
+fn check_lengths(
+    machine: &Machine,
+    (path, file): (&Path, &str),
+    options: &PostOptions,
+    problems: &mut Diagnostics,
+) {
+    let is_mm = -machine.tip_mm().z;
+    let tools = path.events.iter().filter_map(|(_, event)| match event {
+        path::Event::Tool(tool, line) => Some((tool, *line)),
+        _ => None,
+    });
+    let mut is_named = false;
+    for (tool, line) in tools {
+        is_named = true;
+        let other = tool.length_mm.filter(|length| (length - is_mm).abs() > SAME_LENGTH_MM);
+        if let Some(length) = other.filter(|_| options.tip_words.is_none()) {
+            let message = format!(
+                "the file states a tool of {length} mm, the axis positions are those of one of {is_mm:.4} mm"
+            );
+            let place = Place { file: file.to_owned(), line: line as usize, column: 1 };
+            problems.warn("stated-tool-length", place, message, "give --tool-length");
+        }
+    }
+    if !is_named {
+        let message = "the file names no tool: the program calls tool 1".to_owned();
+        let hint = "write LOADTL/number before the first motion, or put tool 1 into the spindle";
+        problems.note("no-tool", Place::whole(file), message, hint);
     }
 }
 

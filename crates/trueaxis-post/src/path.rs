@@ -2,10 +2,11 @@
 
 use crate::PostOptions;
 use crate::strokes::Strokes;
-use trueaxis_cl::{ClCircle, ClCycle, ClPath, ClPoint, Word};
+use trueaxis_cl::{ClCircle, ClCycle, ClPath, ClPoint, ClTool, Word};
 use trueaxis_geometry::frame::rotation;
 use trueaxis_geometry::{Vec3, angle};
 use trueaxis_input::{Diagnostics, Place};
+use trueaxis_nc::Control;
 use trueaxis_nc::moves::{Coolant, Feed, FeedMode, SpindleDirection};
 
 /// Where the tool stands in the workpiece.
@@ -39,10 +40,10 @@ pub(crate) struct Stroke {
     pub line: u32,
 }
 
-/// What happens before a stroke.
+/// What happens before a stroke; a tool with the line of the file.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Event {
-    Tool { number: u32, text: String },
+    Tool(ClTool, u32),
     Spindle(SpindleDirection, f64),
     Coolant(Coolant),
     Dwell(f64),
@@ -164,6 +165,9 @@ struct Builder<'b> {
     circle: Option<ClCircle>,
     cycle: Option<ClCycle>,
     speed: f64,
+    /// What turns and flows by the words of the file, and whether a change of tool has stopped it since.
+    spindle: (Option<SpindleDirection>, bool),
+    coolant: (Option<Coolant>, bool),
     told_no_feed: bool,
     tools: usize,
 }
@@ -179,6 +183,8 @@ impl Path {
             circle: None,
             cycle: None,
             speed: 0.0,
+            spindle: (None, false),
+            coolant: (None, false),
             told_no_feed: false,
             tools: 0,
         };
@@ -211,28 +217,59 @@ impl Builder<'_> {
                 self.cycle = None;
                 return;
             }
-            Word::Tool(number) => {
-                self.tools += 1;
-                // Places of the tip do not depend on the length.
-                if self.tools == 2 && self.options.tip_words.is_none() {
-                    let message = "the file has more than one tool: all are taken to be as long as \
-                                   the machine's";
-                    let hint = "post each tool by itself with --tool-length";
-                    self.problems.warn("one-tool-length", self.place(line), message.into(), hint);
-                }
-                Event::Tool { number: *number, text: String::new() }
+            Word::Tool(tool) => {
+                self.change_tool(tool, line);
+                Event::Tool(*tool, line)
             }
             Word::Spindle(turning, speed) => {
                 self.speed = speed.unwrap_or(self.speed);
+                self.spindle = (Some(*turning), false);
                 Event::Spindle(*turning, self.speed)
             }
-            Word::Coolant(coolant) => Event::Coolant(*coolant),
+            Word::Coolant(coolant) => {
+                self.coolant = (Some(*coolant), false);
+                Event::Coolant(*coolant)
+            }
             Word::Delay(seconds) => Event::Dwell(*seconds),
             Word::Stop { optional } => Event::Stop { optional: *optional },
             Word::Insert(text) => Event::Comment(text.clone()),
             _ => return,
         };
         self.path.events.push((self.path.strokes.len(), event));
+    }
+
+    /// A change of tool stops spindle and coolant (RS274/NGC, 3.6.3; usual on all controls): where the file does not
+    /// say them again before the next motion, they are written again.
+    fn change_tool(&mut self, tool: &ClTool, line: u32) {
+        self.tools += 1;
+        self.spindle.1 = self.spindle.0.is_some_and(|turning| turning != SpindleDirection::Stopped);
+        self.coolant.1 = self.coolant.0.is_some_and(|coolant| coolant != Coolant::Off);
+        // Places of the tip do not depend on the length.
+        if self.tools == 2 && self.options.tip_words.is_none() {
+            let message = "the file has more than one tool: all are taken to be as long as the \
+                           machine's";
+            let hint = "post each tool by itself with --tool-length";
+            self.problems.warn("one-tool-length", self.place(line), message.into(), hint);
+        }
+        let has_offsets = self.options.control != Control::Heidenhain;
+        if let Some(offset) = tool.offset.filter(|n| *n != tool.number && !has_offsets) {
+            let message =
+                format!("the length offset {offset} of the tool is read, but not applied");
+            let hint = "the control keeps the length under the number of the tool";
+            self.problems.warn("not-applied", self.place(line), message, hint);
+        }
+    }
+
+    /// Before a motion: what a change of tool has stopped.
+    fn start_again(&mut self) {
+        let at = self.path.strokes.len();
+        if let (Some(turning), true) = self.spindle {
+            self.path.events.push((at, Event::Spindle(turning, self.speed)));
+        }
+        if let (Some(coolant), true) = self.coolant {
+            self.path.events.push((at, Event::Coolant(coolant)));
+        }
+        (self.spindle.1, self.coolant.1) = (false, false);
     }
 
     fn place(&self, line: u32) -> Place {
@@ -242,6 +279,7 @@ impl Builder<'_> {
     fn point(&mut self, point: &ClPoint, line: u32) {
         let (tip, axis) = (Vec3::from(point.tip_mm), Vec3::from(point.axis));
         let circle = self.circle.take();
+        self.start_again();
         if let Some(cycle) = self.cycle {
             return self.hole(tip, axis, &cycle, point, line);
         }
@@ -249,17 +287,30 @@ impl Builder<'_> {
         let Some(feed) = self.feed(point.rapid, point.feed, line) else { return };
         let from = self.path.strokes.last_to();
         let way = match (circle, from) {
-            (Some(circle), Some(from)) => arc(&circle, &from, &to),
+            (Some(circle), Some(from)) => match arc(&circle, &from, &to) {
+                Some(arc) => arc,
+                None => return self.off_circle(&circle, [&from, &to], line),
+            },
             _ => Way::Line,
         };
         self.push(Stroke { to, way, rapid: point.rapid, feed, line });
     }
 
+    fn off_circle(&mut self, circle: &ClCircle, [from, to]: [&Stand; 2], line: u32) {
+        let [from, to] = [from, to].map(|stand| circle.radius_mm(&stand.tip.into()));
+        let message = format!(
+            "the circle does not lead here: its axis is {from:.4} mm from the point before and {to:.4} mm from this one"
+        );
+        let hint = "check CIRCLE and the points before and after it";
+        self.problems.error("bad-circle", self.place(line), message, hint);
+    }
+
     /// A drilling cycle: over the hole at the retract height, rapid down to the clearance, down with
-    /// feed, at once or by pecks, and up in rapid.
+    /// feed, at once or by pecks, and up in rapid; a reamer leaves the hole with feed.
     fn hole(&mut self, tip: Vec3, axis: Vec3, cycle: &ClCycle, point: &ClPoint, line: u32) {
         let Some(feed) = self.feed(false, cycle.feed.or(point.feed), line) else { return };
         let at = |height: f64| Stand { tip: tip + axis * height, axis };
+        let cycle = &ClCycle { retract_mm: self.retract_mm(&at(0.0), cycle), ..*cycle };
         let way = Way::Line;
         let begin = self.path.strokes.len();
         let over = self.over_hole(&at(cycle.retract_mm), line);
@@ -282,10 +333,24 @@ impl Builder<'_> {
         if cycle.dwell_s > 0.0 {
             self.path.events.push((self.path.strokes.len(), Event::Dwell(cycle.dwell_s)));
         }
+        if cycle.feeds_out {
+            self.push(Stroke { to: at(cycle.clearance_mm), way, rapid: false, feed, line });
+        }
         let last = self.path.strokes.len();
         self.push(Stroke { to: at(cycle.retract_mm), ..rapid });
         let (surface, cycle) = (Stand { tip, axis }, *cycle);
         self.path.holes.push(Drilled { begin, down, last, surface, cycle, feed });
+    }
+
+    /// The retract height of a hole; with RTRCTO,AUTO where the tool comes from, if that is higher.
+    fn retract_mm(&self, surface: &Stand, cycle: &ClCycle) -> f64 {
+        let from = self
+            .path
+            .strokes
+            .last_to()
+            .filter(|from| cycle.to_begin && angle(&from.axis, &surface.axis) <= SAME_RAD);
+        let height = from.map(|from| (from.tip - surface.tip).dot(&surface.axis));
+        height.map_or(cycle.retract_mm, |height| height.max(cycle.retract_mm))
     }
 
     /// Where the tool comes to stand over a hole: at its retract height, or higher where it comes
@@ -332,17 +397,16 @@ impl Builder<'_> {
     }
 }
 
-/// The arc that ends at a point; a line where the circle does not lead there.
-fn arc(circle: &ClCircle, from: &Stand, to: &Stand) -> Way {
+/// The arc that ends at a point; none where the circle does not lead there.
+fn arc(circle: &ClCircle, from: &Stand, to: &Stand) -> Option<Way> {
     let (center, normal) = (Vec3::from(circle.center_mm), Vec3::from(circle.normal));
     let flat = |p: Vec3| {
         let arm = p - center;
         arm - normal * normal.dot(&arm)
     };
     let (a, b) = (flat(from.tip), flat(to.tip));
-    // Both ends on one circle within the digits of such files, or it is not that circle.
-    if a.norm() < 1e-6 || (a.norm() - b.norm()).abs() > 0.02 + 1e-3 * a.norm() {
-        return Way::Line;
+    if a.norm() < 1e-6 || !circle.leads(&from.tip.into(), &to.tip.into()) {
+        return None;
     }
     let shortest = normal.dot(&a.cross(&b)).atan2(a.dot(&b));
     let full = std::f64::consts::TAU;
@@ -352,5 +416,5 @@ fn arc(circle: &ClCircle, from: &Stand, to: &Stand) -> Way {
         false if shortest <= 0.0 => shortest + full,
         false => shortest,
     };
-    Way::Arc { center, normal, angle_rad }
+    Some(Way::Arc { center, normal, angle_rad })
 }

@@ -139,12 +139,16 @@ fn set_up(machine: &Machine, posted: &Posted, options: &PostOptions) -> SetUp {
     setup.given = true;
     setup.work_offsets.insert(1, Frame::shifted(zero));
     setup.workpiece_at = Some(1);
-    let tools = posted.path.events.iter().filter_map(|(_, event)| match event {
-        Event::Tool { number, .. } => Some(*number),
-        _ => None,
+    let tools = posted.path.events.iter().flat_map(|(_, event)| match event {
+        // The length that another number has in the control is that of this tool, too.
+        Event::Tool(tool, _) => [Some(tool.number), tool.offset],
+        _ => [None, None],
     });
-    setup.tools =
-        tools.chain([1]).map(|n| (n, SetUpTool { tip_mm, ..SetUpTool::default() })).collect();
+    setup.tools = tools
+        .flatten()
+        .chain([1])
+        .map(|n| (n, SetUpTool { tip_mm, ..SetUpTool::default() }))
+        .collect();
     setup
 }
 

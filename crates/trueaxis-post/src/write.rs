@@ -6,6 +6,7 @@ use crate::cut::{Cutter, Node};
 use crate::feed::feed_of;
 use crate::path::{Event, Path, Stand};
 use crate::{BlockPlace, Fault, HolePlace, Places, PostOptions};
+use trueaxis_cl::ClTool;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{in_order, usual_threads};
 use trueaxis_machine::Machine;
@@ -120,9 +121,9 @@ impl<'p> Post<'p> {
             tolerance_mm: 0.5 * self.options.tolerance_mm,
         };
         self.block(&Block::Start(&heading), 0)?;
-        let named = |e: &(usize, Event)| e.0 == 0 && matches!(e.1, Event::Tool { .. });
+        let named = |e: &(usize, Event)| e.0 == 0 && matches!(e.1, Event::Tool(..));
         if !self.path.events.iter().any(named) {
-            self.tool(1, "")?;
+            self.tool(&ClTool { number: 1, ..ClTool::default() })?;
         }
         Ok(())
     }
@@ -135,8 +136,9 @@ impl<'p> Post<'p> {
         Ok(Written { text: writer.finish(), lines: line as usize, places, drilled, blocks, arcs })
     }
 
-    fn tool(&mut self, number: u32, text: &str) -> Result<(), Fault> {
-        self.block(&Block::Tool(&ToolCall { number, text, speed_per_minute: None }), 0)
+    fn tool(&mut self, tool: &ClTool) -> Result<(), Fault> {
+        let ClTool { number, offset, .. } = *tool;
+        self.block(&Block::Tool(&ToolCall { number, offset, ..ToolCall::default() }), 0)
     }
 
     /// What happens before a stroke.
@@ -145,7 +147,7 @@ impl<'p> Post<'p> {
         let from = path.events.partition_point(|(at, _)| *at < stroke);
         for (_, event) in path.events[from..].iter().take_while(|(at, _)| *at == stroke) {
             match event {
-                Event::Tool { number, text } => self.tool(*number, text)?,
+                Event::Tool(tool, _) => self.tool(tool)?,
                 Event::Spindle(turning, speed) => {
                     let speed = if *turning == SpindleDirection::Stopped { 0.0 } else { *speed };
                     self.block(&Block::Spindle(*turning, speed), 0)?;

@@ -132,6 +132,8 @@ impl Default for Heading<'_> {
 pub struct ToolCall<'a> {
     /// Its number.
     pub number: u32,
+    /// The number under which the control keeps its length, if not the usual one: that of the tool, or D1.
+    pub offset: Option<u32>,
     /// Its description, for a comment.
     pub text: &'a str,
     /// Spindle speed, for controls that state it with the tool. Unit: 1/min.
@@ -285,6 +287,8 @@ pub struct Writer {
     /// SINUMERIK: D0 is on.
     without_length: bool,
     tool: u32,
+    /// The offset of the tool, where it is stated.
+    offset: Option<u32>,
     modal: Modal,
     /// The cycle that is on.
     hole: Option<Hole>,
@@ -309,6 +313,7 @@ impl Writer {
             words: TipWords::Angles,
             without_length: false,
             tool: 1,
+            offset: None,
             modal: Modal::default(),
             hole: None,
         }

@@ -46,6 +46,10 @@ pub(super) struct Values {
     pub machine_coordinates: bool,
     pub tolerance: String,
     pub tool: u32,
+    /// The number of the length of the tool in the control, H.
+    pub offset: u32,
+    /// The edge of the tool, D of SINUMERIK.
+    pub edge: u32,
     pub text: String,
     pub speed: String,
     pub vectors: bool,
@@ -87,6 +91,8 @@ impl Templates {
             machine_coordinates => values.machine_coordinates,
             tolerance => values.tolerance.clone(),
             tool => values.tool,
+            offset => values.offset,
+            edge => values.edge,
             text => values.text.clone(),
             speed => values.speed.clone(),
             vectors => values.vectors,

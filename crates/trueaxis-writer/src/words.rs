@@ -42,6 +42,8 @@ impl Writer {
         Values {
             name: self.name.clone(),
             tool: self.tool,
+            offset: self.offset.unwrap_or(self.tool),
+            edge: self.offset.unwrap_or(1),
             vectors: self.words == TipWords::Vectors,
             length: self.words == TipWords::Length,
             machine_coordinates: self.machine_coordinates,
@@ -73,7 +75,7 @@ impl Writer {
     }
 
     pub(super) fn tool(&mut self, call: &ToolCall<'_>) -> Result<(), WriteError> {
-        self.tool = call.number;
+        (self.tool, self.offset) = (call.number, call.offset);
         let mut speed = Vec::new();
         if let Some(value) = call.speed_per_minute {
             let decimals = self.decimals.feed;
@@ -97,7 +99,8 @@ impl Writer {
         }
         self.words = words;
         if std::mem::take(&mut self.without_length) {
-            self.line(b"D1");
+            let edge = format!("D{}", self.offset.unwrap_or(1));
+            self.line(edge.as_bytes());
         }
         self.by_template("tip_on", &self.values())
     }

@@ -185,7 +185,7 @@ proptest! {
         let comments = [text.as_str()];
         let heading = Heading { name: &text, comments: &comments, ..Heading::default() };
         writer.write(&Block::Start(&heading)).unwrap();
-        let call = ToolCall { number: 3, text: &text, speed_per_minute: Some(1000.0) };
+        let call = ToolCall { number: 3, text: &text, speed_per_minute: Some(1000.0), ..ToolCall::default() };
         writer.write(&Block::Tool(&call)).unwrap();
         writer.write(&Block::Comment(&text)).unwrap();
         writer.write(&Block::Message(&text)).unwrap();
@@ -204,7 +204,12 @@ fn law_everything_else_reads_back() {
         let mut writer = Writer::new(control);
         let feed = Feed { mode: FeedMode::PerMinute, value: 250.0 };
         let near = Target::default().at(Axis::X, 1.0).at(Axis::Y, 2.0).at(Axis::Z, 3.0);
-        let call = ToolCall { number: 4, text: "ball 6 mm", speed_per_minute: Some(12_000.0) };
+        let call = ToolCall {
+            number: 4,
+            text: "ball 6 mm",
+            speed_per_minute: Some(12_000.0),
+            ..ToolCall::default()
+        };
         for block in [
             Block::Start(&Heading::default()),
             Block::Tool(&call),

@@ -268,7 +268,8 @@ fn what_cannot_be_posted_is_told_with_its_line() {
     let reported = |machine: &Machine, text: &str, options: &PostOptions| {
         let (posted, problems) = post(machine, &cl(text), options);
         assert!(posted.is_none());
-        problems.iter().map(|p| (p.place.line, p.code)).collect::<Vec<_>>()
+        let found = problems.iter().filter(|p| p.code != "no-tool");
+        found.map(|p| (p.place.line, p.code)).collect::<Vec<_>>()
     };
     let engraver = machine("i5-engraver");
     let options = PostOptions::of(Control::Fanuc);

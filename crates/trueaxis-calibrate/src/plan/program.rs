@@ -166,7 +166,7 @@ fn written(
         write.writer.write(&Block::Text(text))?;
     }
     write.writer.write(&Block::Start(&heading))?;
-    let call = ToolCall { number: 1, text: own.kind.name(), speed_per_minute: None };
+    let call = ToolCall { number: 1, text: own.kind.name(), ..ToolCall::default() };
     write.writer.write(&Block::Tool(&call))?;
     if hits {
         write.writer.write(&Block::Text(&SURFACE_LOG.open(control)))?;

@@ -50,7 +50,7 @@ pub fn program(
         tolerance_mm: 0.001,
     };
     write.writer.write(&Block::Start(&heading))?;
-    let call = ToolCall { number: 1, text: "indicator or probe", speed_per_minute: None };
+    let call = ToolCall { number: 1, text: "indicator or probe", ..ToolCall::default() };
     write.writer.write(&Block::Tool(&call))?;
     let text = "INDICATOR AND BALL IN PLACE, ALL CLEAR";
     write.writer.write(&Block::Stop { optional: false, message: Some(text) })?;

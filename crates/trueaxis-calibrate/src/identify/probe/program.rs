@@ -235,7 +235,7 @@ impl<'a> Written<'a> {
             writer.write(&Block::Text(text))?;
         }
         writer.write(&Block::Start(&heading))?;
-        let call = ToolCall { number: settings.tool, text: "touch probe", speed_per_minute: None };
+        let call = ToolCall { number: settings.tool, text: "touch probe", ..ToolCall::default() };
         writer.write(&Block::Tool(&call))?;
         let angle = settings.orientation_rad.to_degrees() + 0.0;
         let orient = match of.control {

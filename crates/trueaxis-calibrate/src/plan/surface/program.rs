@@ -155,7 +155,7 @@ fn written(
         touches.writer.write(&Block::Text(text))?;
     }
     touches.writer.write(&Block::Start(&heading))?;
-    let call = ToolCall { number: study.tool, text: "touch probe", speed_per_minute: None };
+    let call = ToolCall { number: study.tool, text: "touch probe", ..ToolCall::default() };
     touches.writer.write(&Block::Tool(&call))?;
     touches.writer.write(&Block::Text(&SURFACE_LOG.open(control)))?;
     let text = "TOUCH PROBE IN THE SPINDLE, ALL CLEAR";

@@ -95,7 +95,7 @@ impl Written<'_> {
     /// Changes the tool, high up, with the rotary axes at 0 and over the setter.
     fn tool(&mut self, tool: &SetTool) -> Result<(), ProgramError> {
         self.lift()?;
-        let call = ToolCall { number: tool.number, text: &tool.name, speed_per_minute: None };
+        let call = ToolCall { number: tool.number, text: &tool.name, ..ToolCall::default() };
         self.writer.write(&Block::Tool(&call))?;
         let nominal = format!("nominal length {:.4} mm", tool.length_mm);
         self.writer.write(&Block::Comment(&nominal))?;
@@ -314,7 +314,7 @@ fn by_cycles(setting: &ToolSetting) -> Result<Vec<u8>, ProgramError> {
     // The height counts from the workpiece zero: above the setter by the clearance.
     let height = setting.setter.at_mm.z + setting.setter.clearance_mm;
     for tool in setting.tools.iter().filter(|t| !t.is_reference) {
-        let call = ToolCall { number: tool.number, text: &tool.name, speed_per_minute: None };
+        let call = ToolCall { number: tool.number, text: &tool.name, ..ToolCall::default() };
         writer.write(&Block::Tool(&call))?;
         let mut up = Command::default();
         up[z] = top;

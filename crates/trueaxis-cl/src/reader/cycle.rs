@@ -1,0 +1,190 @@
+//! CYCLE: the words of drilling in the forms of several systems.
+
+use super::super::numbers::{Fault, number};
+use super::super::scan::Statement;
+use super::super::{ClCycle, Word};
+use super::Reader;
+use super::technology::{feed, feed_unit};
+use trueaxis_nc::moves::Feed;
+
+/// Pecks of one hole: more than any file means.
+const MOST_PECKS: f64 = 1e5;
+
+const HINT: &str = "write CYCLE/DRILL,FEDTO,10,MMPM,200,RAPTO,2";
+
+/// The words of one CYCLE; lengths in mm.
+#[derive(Debug, Default)]
+struct Words {
+    depth: Option<f64>,
+    clearance: Option<f64>,
+    retract: Option<f64>,
+    to_begin: bool,
+    feed: Option<Feed>,
+    dwell_s: f64,
+    first: Option<f64>,
+    step: Option<f64>,
+    is_deep: bool,
+    /// Numbers without a word.
+    loose: Vec<f64>,
+    /// Words that are not applied.
+    others: Vec<String>,
+}
+
+impl Reader<'_> {
+    /// CYCLE/DRILL,FEDTO,depth,MMPM,feed,RAPTO,clearance,RTRCTO,retract (SolidWorks, Creo, NX with the depth below
+    /// zero), DEPTH … CLEAR … RETURN (CATIA), or depth, feed, unit, clearance without words. CYCLE/DEEP or DEEP with
+    /// 1STPECK and SUBPECK, or STEP, pecks.
+    pub(super) fn cycle(&mut self, s: &Statement) -> Result<Word, Fault> {
+        let kind = s.argument(0).to_ascii_uppercase();
+        match kind.as_str() {
+            "OFF" | "NOMORE" => return Ok(Word::CycleOff),
+            "INIT" => return Ok(Word::Noted),
+            "ON" => return self.cycle_again(),
+            "TAP" | "RTAP" | "THREAD" | "MILL" => {
+                let message = format!("CYCLE/{kind} is not read: a motion other than drilling");
+                return Err((
+                    "motion-not-read",
+                    message,
+                    "write these holes in a program of their own",
+                ));
+            }
+            _ if number(&kind).is_ok() || kind.is_empty() => {
+                return Err(("bad-cycle", "the cycle has no kind".to_owned(), HINT));
+            }
+            _ => {}
+        }
+        let words = self.cycle_words(s)?;
+        for word in &words.others {
+            let message = format!("{word} of CYCLE/{kind} is read, but not applied");
+            let hint = "check the hole";
+            self.warn("cycle-not-applied", &format!("{kind} {word}"), s.line, message, hint);
+        }
+        let is_deep = words.is_deep || kind.starts_with("DEEP");
+        let cycle = words.cycle(is_deep, kind == "REAM")?;
+        let is_drilling = matches!(kind.as_str(), "DRILL" | "FACE" | "REAM" | "CSINK");
+        if !is_drilling && cycle.pecks_mm.is_none() {
+            let message = format!("CYCLE/{kind} is read as drilling in one stroke");
+            let hint = "pecks and the retraction of the cycle are omitted; check the hole";
+            self.warn("cycle-not-applied", &kind, s.line, message, hint);
+        }
+        self.cycle = Some(cycle);
+        Ok(Word::Cycle(cycle))
+    }
+
+    fn cycle_again(&self) -> Result<Word, Fault> {
+        let message = "CYCLE/ON, but no cycle is before it".to_owned();
+        self.cycle.map(Word::Cycle).ok_or(("bad-cycle", message, HINT))
+    }
+
+    fn cycle_words(&self, s: &Statement) -> Result<Words, Fault> {
+        let arguments: Vec<&str> = s.arguments().skip(1).filter(|a| !a.is_empty()).collect();
+        let mut words = Words::default();
+        let mut at = 0;
+        while let Some(argument) = arguments.get(at) {
+            at += 1;
+            if let Ok(value) = number(argument) {
+                match at {
+                    1 => words.depth = Some(value * self.unit_mm),
+                    _ => words.loose.push(value),
+                }
+                continue;
+            }
+            let word = argument.to_ascii_uppercase();
+            let rest = &arguments[at..];
+            at += self.cycle_word(&word, rest, &mut words)?;
+        }
+        if let Some(value) = words.loose.pop() {
+            // After depth, feed and unit.
+            if !words.loose.is_empty() || words.clearance.is_some() || words.feed.is_none() {
+                let message =
+                    format!("the cycle has the number {value}, and no word says what it is");
+                return Err(("bad-cycle", message, HINT));
+            }
+            words.clearance = Some(value * self.unit_mm);
+        }
+        Ok(words)
+    }
+
+    /// Takes a word and what follows it; how many arguments that were.
+    fn cycle_word(&self, word: &str, rest: &[&str], words: &mut Words) -> Result<usize, Fault> {
+        let first = rest.first().copied().unwrap_or_default();
+        let length = || Ok::<_, Fault>(Some(number(first)? * self.unit_mm));
+        if let Some(unit) = feed_unit(word, self.unit_mm) {
+            // Before its unit, or after it.
+            let (value, taken) = match words.loose.pop() {
+                Some(value) => (value, 0),
+                None => (number(first)?, 1),
+            };
+            words.feed = Some(feed(value, unit)?);
+            return Ok(taken);
+        }
+        match word {
+            "FEDTO" | "DEPTH" => words.depth = length()?,
+            "RAPTO" | "CLEAR" => words.clearance = length()?,
+            "RTRCTO" | "RETURN" => match number(first).is_ok() {
+                true => words.retract = length()?,
+                false => return Ok(0),
+            },
+            // Back to where the tool came from.
+            "AUTO" => {
+                words.to_begin = true;
+                return Ok(0);
+            }
+            "DEEP" => {
+                words.is_deep = true;
+                return Ok(0);
+            }
+            "MANUAL" => return Ok(0),
+            "1STPECK" => words.first = length()?,
+            "SUBPECK" | "STEP" => words.step = length()?,
+            "DWELL" => return self.cycle_dwell(rest, words),
+            _ => {
+                words.others.push(word.to_owned());
+                return Ok(rest.iter().take_while(|a| number(a).is_ok()).count());
+            }
+        }
+        Ok(1)
+    }
+
+    fn cycle_dwell(&self, rest: &[&str], words: &mut Words) -> Result<usize, Fault> {
+        let is_rev = |text: Option<&&str>| text.is_some_and(|t| t.eq_ignore_ascii_case("REV"));
+        if rest.first().is_some_and(|t| t.eq_ignore_ascii_case("OFF")) {
+            return Ok(1);
+        }
+        let count = if is_rev(rest.first()) || is_rev(rest.get(1)) { 2 } else { 1 };
+        words.dwell_s = self.dwell_s(rest.get(..count).unwrap_or_default())?;
+        Ok(count)
+    }
+}
+
+impl Words {
+    fn cycle(&self, is_deep: bool, feeds_out: bool) -> Result<ClCycle, Fault> {
+        // NX counts the depth along the tool axis, below zero.
+        let Some(depth_mm) = self.depth.map(f64::abs) else {
+            return Err(("bad-cycle", "the cycle has no depth".to_owned(), HINT));
+        };
+        let clearance_mm = self.clearance.unwrap_or(0.0);
+        if clearance_mm < 0.0 {
+            let message = format!("the clearance {clearance_mm} mm is below the point");
+            return Err(("bad-cycle", message, HINT));
+        }
+        let positive = |length: Option<f64>| length.filter(|v| *v > 0.0);
+        let peck = positive(self.step);
+        let first = positive(self.first).or(peck);
+        let pecks_mm = first.filter(|_| is_deep).map(|first| [first, peck.unwrap_or(first)]);
+        if pecks_mm.is_some_and(|[_, peck]| depth_mm / peck > MOST_PECKS) {
+            let message = "the cycle has more than 100,000 pecks".to_owned();
+            return Err(("bad-cycle", message, "check SUBPECK and the units"));
+        }
+        Ok(ClCycle {
+            depth_mm,
+            clearance_mm,
+            retract_mm: self.retract.unwrap_or(clearance_mm).max(clearance_mm),
+            to_begin: self.to_begin,
+            pecks_mm,
+            dwell_s: self.dwell_s,
+            feeds_out,
+            feed: self.feed,
+        })
+    }
+}

@@ -1,0 +1,235 @@
+//! What a word of a cutter-location file means in the forms that systems write, and what is refused.
+
+use trueaxis_cl::{ClCycle, ClFile, ClTool, Reading, Word};
+use trueaxis_nc::moves::{Coolant, Feed, FeedMode, SpindleDirection};
+
+const HEAD: &str = "UNITS/MM\nSPINDL/RPM,1200,CLW\nFEDRAT/500,MMPM\nGOTO/0,0,30,0,0,1\n";
+
+fn read(text: &str) -> (Vec<Word>, Vec<(usize, &'static str)>) {
+    let (file, problems) = ClFile::read("a.cls", text.as_bytes().to_vec(), &Reading::default());
+    let found = problems.iter().map(|p| (p.place.line, p.code)).collect();
+    (file.records().iter().map(|r| r.word.clone()).collect(), found)
+}
+
+/// The word of a line after the head, and the codes of what is said of it.
+fn word(line: &str) -> (Word, Vec<&'static str>) {
+    let (words, found) = read(&format!("{HEAD}{line}\n"));
+    (words[4].clone(), found.into_iter().map(|(_, code)| code).collect())
+}
+
+fn refused(line: &str, code: &str) {
+    assert_eq!(word(line).1, [code], "{line}");
+}
+
+/// The same hole in the words of every system: 20 deep, from 3 above, at 100 mm/min.
+#[test]
+fn law_a_hole_is_the_same_in_every_notation() {
+    let feed = Some(Feed { mode: FeedMode::PerMinute, value: 100.0 });
+    let hole = ClCycle {
+        depth_mm: 20.0,
+        clearance_mm: 3.0,
+        retract_mm: 3.0,
+        to_begin: false,
+        pecks_mm: None,
+        dwell_s: 0.0,
+        feeds_out: false,
+        feed,
+    };
+    for line in [
+        "CYCLE/DRILL,FEDTO,20,MMPM,100,RAPTO,3",
+        "CYCLE/DRILL,RAPTO,3.0,FEDTO,-20.0,MMPM,100",
+        "CYCLE/DRILL,DEPTH,20,MMPM,100,CLEAR,3",
+        "CYCLE/DRILL,20,100,MMPM,3",
+        "CYCLE/DRILL,20,MMPM,100,3",
+        "CYCLE/DRILL,FEDTO,20,100,MMPM,RAPTO,3",
+        "cycle / drill , fedto , 20 , mmpm , 100 , rapto , 3 , rtrcto , 3 , manual",
+        "CYCLE/DRILL,FEDTO,20,MMPM,100, $\n RAPTO,3,RETURN,0",
+        "CYCLE/DRILL,FEDTO,20,PERMIN,100,RAPTO,3,DWELL,OFF",
+    ] {
+        assert_eq!(word(line), (Word::Cycle(hole), vec![]), "{line}");
+    }
+    let one = |line: &str, is: ClCycle| assert_eq!(word(line), (Word::Cycle(is), vec![]), "{line}");
+    let all = "FEDTO,20,MMPM,100,RAPTO,3";
+    one(&format!("CYCLE/DRILL,{all},RTRCTO,AUTO"), ClCycle { to_begin: true, ..hole });
+    one(&format!("CYCLE/DRILL,{all},RETURN,12"), ClCycle { retract_mm: 12.0, ..hole });
+    one(&format!("CYCLE/REAM,{all}"), ClCycle { feeds_out: true, ..hole });
+    // 2 turns at 1200 1/min are 0.1 s.
+    for dwell in ["DWELL,0.1", "DWELL,2,REV", "DWELL,REV,2"] {
+        one(&format!("CYCLE/DRILL,{all},{dwell}"), ClCycle { dwell_s: 0.1, ..hole });
+    }
+    let pecks = ClCycle { pecks_mm: Some([5.0, 5.0]), ..hole };
+    one(&format!("CYCLE/DEEP,{all},STEP,5"), pecks);
+    one(&format!("CYCLE/DRILL,DEEP,STEP,5,{all}"), pecks);
+    let (words, found) = read(&format!("{HEAD}CYCLE/DRILL,{all}\nCYCLE/OFF\nCYCLE/ON\n"));
+    assert!(words[4] == words[6] && found.is_empty());
+}
+
+#[test]
+fn what_a_cycle_does_not_say_is_not_guessed() {
+    for line in [
+        "CYCLE/DRILL",
+        "CYCLE/ON",
+        "CYCLE/20,MMPM,100",
+        "CYCLE/DRILL,20,3",
+        "CYCLE/DRILL,20,100,MMPM,3,4",
+        "CYCLE/DRILL,20,100,MMPM,3,RAPTO,4",
+        "CYCLE/DRILL,FEDTO,20,RAPTO,-3",
+    ] {
+        refused(line, "bad-cycle");
+    }
+    refused("CYCLE/DRILL,FEDTO,MMPM,100", "bad-number");
+    refused("CYCLE/DRILL,FEDTO,20,MMPM,0", "bad-feed");
+    refused("CYCLE/DRILL,FEDTO,20,DWELL,-2", "bad-delay");
+    refused("CYCLE/TAP,20,1", "motion-not-read");
+    for line in ["CYCLE/DRILL,FEDTO,20,MMPT,0.1,RAPTO,3", "CYCLE/BRKCHP,FEDTO,20,STEP,5"] {
+        refused(line, "cycle-not-applied");
+    }
+}
+
+#[test]
+fn a_spindle_turns_as_the_file_says_or_not_at_all() {
+    use SpindleDirection::{Clockwise, CounterClockwise, Stopped};
+    for (line, turning, speed) in [
+        ("SPINDL/RPM,1000,CLW", Clockwise, Some(1000.0)),
+        ("SPINDL/1000,CCLW", CounterClockwise, Some(1000.0)),
+        ("SPINDL/ON", Clockwise, None),
+        ("SPINDL/OFF", Stopped, None),
+        ("SPINDL/0", Stopped, None),
+    ] {
+        assert_eq!(word(line), (Word::Spindle(turning, speed), vec![]), "{line}");
+    }
+    for line in ["SPINDL/LOCK", "SPINDL/ORIENT,90", "SPINDL/NEUTRL"] {
+        assert_eq!(word(line), (Word::Spindle(Stopped, None), vec!["not-applied"]), "{line}");
+    }
+    for line in ["SPINDL/MAXRPM,100", "SPINDL/RANGE,2", "SPINDL/HIGH"] {
+        assert_eq!(word(line), (Word::Noted, vec!["not-applied"]), "{line}");
+    }
+    for line in ["SPINDL/-500", "SPINDL/RPM,100,REVERS", "SPINDL/RPM,100,200"] {
+        refused(line, "bad-spindle");
+    }
+    // ON and a speed alone keep the direction.
+    let (words, found) = read(&format!("{HEAD}SPINDL/CCLW\nSPINDL/OFF\nSPINDL/ON\nSPINDL/900\n"));
+    assert_eq!(words[6], Word::Spindle(CounterClockwise, None));
+    assert_eq!(words[7], Word::Spindle(CounterClockwise, Some(900.0)));
+    assert_eq!(found, [(7, "direction-kept")]);
+}
+
+#[test]
+fn units_of_feeds_are_known_or_refused() {
+    for (line, value) in
+        [("FEDRAT/250,MMPM", 250.0), ("FEDRAT/MMPM,250", 250.0), ("FEDRAT/IPM,2", 50.8)]
+    {
+        let feed = Feed { mode: FeedMode::PerMinute, value };
+        assert_eq!(word(line), (Word::Feed(feed), vec![]), "{line}");
+    }
+    for line in [
+        "FEDRAT/5,MPM",
+        "FEDRAT/0.1,MMPT",
+        "FEDRAT/20,FPM",
+        "FEDRAT/0.2,PERTOOTH",
+        "FEDRAT/1E7,MMPM",
+        "FEDRAT/5,6",
+        "FEDRAT/0",
+        "FEDRAT/INVERS,3",
+    ] {
+        refused(line, "bad-feed");
+    }
+    for line in ["DELAY/2,MIN", "DELAY/-1", "DELAY/1e9", "DELAY/"] {
+        refused(line, "bad-delay");
+    }
+    assert_eq!(word("DELAY/10,REV"), (Word::Delay(0.5), vec![]));
+}
+
+#[test]
+fn coolant_and_tools_are_those_of_the_file() {
+    for (line, coolant) in [
+        ("COOLNT/ON", Coolant::Flood),
+        ("COOLNT/FLOOD", Coolant::Flood),
+        ("COOLNT/MIST", Coolant::Mist),
+        ("COOLNT/FLOOD,OFF", Coolant::Off),
+    ] {
+        assert_eq!(word(line), (Word::Coolant(coolant), vec![]), "{line}");
+    }
+    assert_eq!(word("COOLNT/FLOOD,HIGH"), (Word::Coolant(Coolant::Flood), vec!["not-applied"]));
+    for line in ["COOLNT/AIR", "COOLNT/THRU", "COOLNT/FOO", "COOLNT/"] {
+        assert_eq!(word(line), (Word::Noted, vec!["not-applied"]), "{line}");
+    }
+    let tool = ClTool { number: 5, ..ClTool::default() };
+    for (line, is) in [
+        ("LOADTL/5", tool),
+        ("LOAD/TOOL,5,ADJUST,0", tool),
+        ("TURRET/5", tool),
+        ("LOADTL/5,5", tool),
+        ("LOADTL/5,LENGTH,99,OSETNO,7", ClTool { offset: Some(7), length_mm: Some(99.0), ..tool }),
+        ("LOADTL/5,ADJUST,7,MILL", ClTool { offset: Some(7), ..tool }),
+    ] {
+        assert_eq!(word(line), (Word::Tool(is), vec![]), "{line}");
+    }
+    assert_eq!(word("LOADTL/5,1"), (Word::Tool(tool), vec!["not-applied"]));
+    for line in ["LOADTL/1.5", "LOADTL/-1", "LOADTL/5,OSETNO,1.5"] {
+        refused(line, "bad-tool");
+    }
+    for line in ["AUXFUN/42", "PREFUN/61", "OPSKIP/ON", "CLAMP/ON", "INSERT/M98 P1000", "RETRCT"] {
+        assert_eq!(word(line).1, ["not-applied"], "{line}");
+    }
+    assert_eq!(word("TOOLNO/4").1, ["no-tool"]);
+}
+
+/// NX writes the vector of a point where it changes; GODLTA may have one of its own.
+#[test]
+fn law_a_tool_axis_holds_until_another_one() {
+    let axes = |text: &str| -> (Vec<[f64; 3]>, Vec<(usize, &'static str)>) {
+        let (file, problems) = ClFile::read("a", text.as_bytes().to_vec(), &Reading::default());
+        let found = problems.iter().map(|p| (p.place.line, p.code)).collect();
+        (file.points().map(|(_, p)| p.axis).collect(), found)
+    };
+    let (tilted, up) = ([0.0, 0.6, 0.8], [0.0, 0.0, 1.0]);
+    let all = "UNITS/MM\nGOTO/1,0,0,0,0.6,0.8\nGOTO/2,0,0,0,0.6,0.8\nGOTO/2,3,4,0,0.6,0.8\nGOTO/2,3,5,0,0,1\n";
+    let wanted = axes(all).0;
+    assert_eq!(wanted, [tilted, tilted, tilted, up]);
+    let where_it_changes =
+        "UNITS/MM\nGOTO/1,0,0,0,0.6,0.8\nGOTO/2,0,0\nGODLTA/5\nGODLTA/0,0,1,0,0,1\n";
+    assert_eq!(axes(where_it_changes), (wanted.clone(), vec![(3, "tool-axis-kept")]));
+    let stated = "UNITS/MM\nTLAXIS/0,0.6,0.8\nGOTO/1,0,0\nGOTO/2,0,0\nGODLTA/5\nTLAXIS/0,0,1\nGODLTA/0,0,1\n";
+    assert_eq!(axes(stated), (wanted, vec![]));
+    let off = "UNITS/MM\nMULTAX/ON\nGOTO/1,0,0,0,0.6,0.8\nMULTAX/OFF\nGOTO/2,0,0\n";
+    assert_eq!(axes(off), (vec![tilted, up], vec![(5, "no-tool-axis")]));
+    refused("GODLTA/0,0,-5,77", "bad-point");
+}
+
+#[test]
+fn what_stands_in_the_wrong_place_is_said() {
+    let said = |text: &str, code: &str, line: usize| {
+        assert_eq!(read(text).1, [(line, code)], "{text}");
+    };
+    said("GOTO/1,2,3,0,0,1\nUNITS/INCHES\nGOTO/2,2,3\n", "unit-changes", 2);
+    said("UNITS/MM\nGOTO/1,2,3,0,0,1\nUNITS/INCHES\nGOTO/2,2,3\n", "unit-changes", 3);
+    said("UNITS/MM\nGOTO/1,2,3,0,0,1\nFINI\nGOTO/2,2,3\nGOTO/3,2,3\n", "goes-on-after-end", 4);
+    said("UNITS/MM\nGOTO/1,2,3,0,0,1\nN10 GOTO/2,2,3\n", "unknown-motion", 3);
+    let (words, _) = read(&format!("{HEAD}RAPID\nRAPID/OFF\nGOTO/1,0,0\n"));
+    assert!(matches!(words[6], Word::Goto(point) if !point.rapid));
+    let frame = |x: i32| format!("MSYS/{x},0,0,1,0,0,0,1,0\n");
+    let same = format!("UNITS/MM\n{0}GOTO/1,2,3,0,0,1\nEND-OF-PATH\n{0}GOTO/1,2,4\n", frame(0));
+    assert_eq!(read(&same).1, []);
+    let other = same.replacen(&frame(0), &frame(50), 1);
+    said(&other, "other-coordinate-system", 5);
+}
+
+/// A circle leads from the point before it to the one after it.
+#[test]
+fn circles_state_the_radius_of_their_points() {
+    let circle =
+        |line: &str| read(&format!("UNITS/MM\nGOTO/10,0,0,0,0,1\n{line}\nGOTO/0,10,0\n")).1;
+    for line in [
+        "CIRCLE/0,0,5,0,0,1",
+        "CIRCLE/0,0,5,0,0,1,10",
+        "CIRCLE/0,0,0,0,0,1,10.01",
+        // NX: tolerances and the cutter.
+        "CIRCLE/0.0,0.0,0.0,0.0,0.0,1.0,10.0,0.06,0.5,10.0,0.0",
+    ] {
+        assert_eq!(circle(line), [], "{line}");
+    }
+    for line in ["CIRCLE/0,0,0,0,0,1,500", "CIRCLE/0,0,0,0,0,1,10.1", "CIRCLE/0,0,0,0,0,1,10,1"] {
+        assert_eq!(circle(line), [(3, "bad-circle")], "{line}");
+    }
+}
