@@ -88,6 +88,9 @@ pub struct ProgramArguments {
     /// the path in its loops
     #[arg(long, value_name = "N", default_value = "1000000")]
     most_jumps: u64,
+    /// Leave out optional blocks (/), as with the switch of the control on; they are executed otherwise
+    #[arg(long)]
+    without_optional: bool,
     /// With --three-phase: the velocity changes smoothly
     #[arg(long, requires = "three_phase")]
     smooth: bool,
@@ -109,6 +112,7 @@ impl ProgramArguments {
             three_phase: self.three_phase,
             smooth: self.smooth,
             most_jumps: self.most_jumps,
+            without_optional: self.without_optional,
             ..ProgramChoice::default()
         };
         (machine.choice(Some(&self.log)), program)

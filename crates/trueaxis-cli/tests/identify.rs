@@ -3,6 +3,7 @@
 mod command;
 
 use command::{Folder, Ran, root, trueaxis};
+use serde_json::Value;
 
 const CAMPAIGN: &str = "examples/05_identify/probe-ball.toml";
 
@@ -456,6 +457,51 @@ fn as_millimetres(line: &str) -> String {
         }
         _ => line.to_owned(),
     }
+}
+
+/// The axes in the units of their headings are what they are in mm and degrees.
+#[test]
+fn law_positions_may_have_any_unit_that_their_heading_states() {
+    let folder = Folder::new("identify-units-of-axes");
+    let told = |headings: [&str; 5], scales: [f64; 5]| {
+        let campaign = with_readings(&folder, |_, line| {
+            let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+            match cells.len() {
+                9 if cells[0] == "C" => cells.splice(..5, headings.map(str::to_owned)).count(),
+                9 => {
+                    let q = |i: usize| cells[i].parse::<f64>().expect("a number") * scales[i];
+                    let all: [String; 5] = std::array::from_fn(|i| format!("{:.15e}", q(i)));
+                    cells.splice(..5, all).count()
+                }
+                _ => 0,
+            };
+            cells.join(",")
+        });
+        trueaxis(&["identify", &campaign, "--format", "json"])
+    };
+    let errors = |ran: &Ran| -> Vec<f64> {
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        let document = ran.json();
+        let errors = document["errors"].as_array().expect("errors");
+        // What cannot be separated has no value.
+        let value = |e: &Value| e["value_um"].as_f64().or(e["value_urad"].as_f64());
+        let values: Vec<f64> = errors.iter().filter_map(value).collect();
+        assert!(values.len() > 5, "{errors:?}");
+        values
+    };
+    let rad = 1f64.to_radians();
+    let usual = errors(&told(["C", "A", "X", "Y", "Z"], [1.0; 5]));
+    for (headings, scales) in [
+        (["C_deg", "A_deg", "X_mm", "Y_mm", "Z_mm"], [1.0; 5]),
+        (["C_rad", "A_arcsec", "X_in", "Y_um", "Z_m"], [rad, 3600.0, 1.0 / 25.4, 1e3, 1e-3]),
+    ] {
+        let others = errors(&told(headings, scales));
+        let near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-6 * b.abs().max(1e-3);
+        assert!(others.iter().zip(&usual).all(near), "{others:?} {usual:?}");
+        assert_eq!(others.len(), usual.len());
+    }
+    refused(&told(["C_deg", "A_mm", "X", "Y", "Z"], [1.0; 5]), "wrong-unit", "readings.csv");
+    refused(&told(["C", "C_deg", "X", "Y", "Z"], [1.0; 5]), "duplicate-column", "readings.csv");
 }
 
 #[test]

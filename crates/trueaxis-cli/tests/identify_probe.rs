@@ -199,6 +199,7 @@ fn spoiled_radii_are_named_with_their_line() {
 fn studies_that_cannot_be_are_refused() {
     let folder = Folder::new("probe-studies");
     folder.file("h.csv", ring(HEADING, plain));
+    folder.file("copy.csv", ring(HEADING, plain));
     folder.file("dial.csv", "angle_deg,reading_um\n0,1\n90,2\n");
     for (text, code) in [
         (study("").replace("[ring]", "[hole]"), "missing-gauge"),
@@ -206,6 +207,7 @@ fn studies_that_cannot_be_are_refused() {
         (study("").replace("4 mm", "64 mm"), "wrong-size"),
         (study("").replace("'10 20 mm'", "'10 20 30 mm'"), "bad-vector"),
         (study("").replace("['h.csv']", "['h.csv', 'h.csv']"), "duplicate-table"),
+        (study("").replace("['h.csv']", "['h.csv', 'copy.csv']"), "duplicate-table"),
         (study("").replace("['h.csv']", "['no.csv']"), "unreadable-file"),
         (study("modle = 'spline'"), "unknown-key"),
         (study("model = 'linear'"), "unknown-word"),

@@ -92,3 +92,18 @@ fn nothing_that_a_person_has_made_is_overwritten() {
     let ran = trueaxis(&["plan", &campaign, "-o", &folder.path("e")]);
     assert!(ran.status == 2 && ran.err.contains("unwritable-file"), "{}", ran.err);
 }
+
+/// The length of a touch probe is the sum of two radii: one of them cannot be as large.
+#[test]
+fn a_ball_larger_than_the_length_of_the_probe_is_refused() {
+    let folder = Folder::new("plan-large-ball");
+    let text = read_to_string(command::root().join(CAMPAIGN)).expect("a campaign");
+    let machine = command::root().join("machines").display().to_string();
+    let text = text.replace("../../machines", &machine);
+    for (ball, status) in [("25 mm", 0), ("30.9 mm", 0), ("31 mm", 2), ("40 mm", 2)] {
+        let of = folder.file("c.toml", text.replace("\"25 mm\"", &format!("\"{ball}\"")));
+        let ran = trueaxis(&["plan", &of]);
+        assert_eq!(ran.status, status, "{ball} {}", ran.err);
+        assert_eq!(ran.err.contains("error[contradiction]"), status == 2, "{}", ran.err);
+    }
+}

@@ -458,3 +458,45 @@ fn active_tables_are_those_of_the_machine_that_runs() {
     assert_eq!(plain.0, active.0);
     assert!(active.1.contains("shown with EC0Y") && !plain.1.contains("already-active"));
 }
+
+/// With the switch of the control on, a program is the one without these blocks; in every language, and in what it calls.
+#[test]
+fn law_optional_blocks_are_left_out_as_if_they_were_not_there() {
+    let folder = Folder::new("simulate-optional");
+    let whole = [
+        (
+            "nc",
+            "G21 G17 G90 G94\nG0 X0 Y0 Z-10\n/G1 Y50 F600\nG1 X50 F600\n/2 G1 X80\n/N40 G1 X90\nM98 P7\nG1 X20\nM30\n",
+        ),
+        (
+            "mpf",
+            "G17 G90 G94\nG0 X0 Y0 Z-10\n/G1 Y50 F600\nG1 X50 F600\n/2 G1 X80\n/N40 G1 X90\nG1 X20\nM30\n",
+        ),
+        (
+            "h",
+            "BEGIN PGM A MM\nL X+0 Y+0 Z-10 R0 FMAX\n/ L Y+50 F600\nL X+50 F600\n/ L X+90\nL X+20\nEND PGM A MM\n",
+        ),
+    ];
+    folder.file("O0007.nc", "O0007\n/G1 X70\nG1 Y10\nM99\n");
+    for (ending, text) in whole {
+        let marked = folder.file(&format!("marked.{ending}"), text);
+        let numbers = |path: &str, more: &[&str]| -> [f64; 3] {
+            let base = ["simulate", MILL, path, "--no-collisions", "--format", "json"];
+            let ran = run(&base, more);
+            assert_eq!(ran.status, 0, "{ending} {}", ran.err);
+            let document = ran.json();
+            ["time_s", "feed_mm", "rapid_mm"]
+                .map(|key| document[key].as_f64().unwrap_or_else(|| panic!("{key} {}", ran.out)))
+        };
+        let left_out = numbers(&marked, &["--without-optional"]);
+        let executed = numbers(&marked, &[]);
+        let is_marked = |line: &&str| line.starts_with('/');
+        let lines: Vec<&str> = text.lines().filter(|line| !is_marked(line)).collect();
+        let bare = folder.file(&format!("bare.{ending}"), lines.join("\n") + "\n");
+        if ending == "nc" {
+            folder.file("O0007.nc", "O0007\nG1 Y10\nM99\n");
+        }
+        assert_eq!(numbers(&bare, &[]), left_out, "{ending}");
+        assert!(executed[0] > left_out[0] + 1.0, "{ending} {executed:?} {left_out:?}");
+    }
+}

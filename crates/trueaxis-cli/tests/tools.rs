@@ -323,3 +323,38 @@ fn the_angles_and_the_screen() {
         );
     }
 }
+
+/// A side that is touched within the corner radius or the point is not the diameter.
+#[test]
+fn a_diameter_is_measured_where_the_tool_has_it() {
+    let folder = Folder::new("tool-setting-corner");
+    let text = std::fs::read_to_string(root().join(SETUP)).expect("a set-up");
+    let planned = |tool: &str, depth: &str| {
+        let text = text.replace(
+            "diameter = \"1 mm\"\ncorner_radius = \"0.5 mm\"",
+            &format!("measure_diameter = true\n{tool}"),
+        );
+        let deep = format!("depth = \"{depth}\"");
+        let lines = text.lines().map(|l| if l.starts_with("depth = ") { &deep } else { l });
+        let setup = folder.file("s.toml", lines.collect::<Vec<_>>().join("\n"));
+        trueaxis(&["plan", "tool-setting", MACHINE, &setup, "--control", "fanuc", "--tools", "3"])
+    };
+    // The ball of 10 mm, a bull nose, a drill of 118° with a point of 3.004 mm, a flat one.
+    for (tool, enough, less) in [
+        ("corner_radius = \"5 mm\"", "5 mm", "4.9 mm"),
+        ("corner_radius = \"2 mm\"", "2 mm", "1.9 mm"),
+        ("cutter = { point = \"118 deg\" }", "3.01 mm", "3 mm"),
+        ("corner_radius = \"0 mm\"", "0.1 mm", ""),
+    ] {
+        let tool = format!("diameter = \"10 mm\"\n{tool}");
+        let text = planned(&tool, enough);
+        assert!(!text.err.contains("bad-tool"), "{tool} {}", text.err);
+        if !less.is_empty() {
+            let ran = planned(&tool, less);
+            assert_eq!(ran.status, 2, "{tool} {}", ran.out);
+            assert!(ran.err.contains("has its whole diameter from"), "{}", ran.err);
+        }
+    }
+    let taper = planned("diameter = \"10 mm\"\ncutter = { side = \"5 deg\" }", "5 mm");
+    assert!(taper.status == 2 && taper.err.contains("is a taper"), "{}", taper.err);
+}

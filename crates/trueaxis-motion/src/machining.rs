@@ -35,6 +35,15 @@ const LONGEST: f64 = 100.0;
 const MOST_PLACES: usize = 600_000;
 /// Without a stated resolution the longest edge of the stock has so many lines.
 const LINES: f64 = 200.0;
+/// Thin tools make them closer, up to so many.
+const MOST_LINES: f64 = 1000.0;
+/// Not closer than this: paths are drawn to a tenth of it. Unit: mm.
+const FINEST_MM: f64 = 0.05;
+/// A cutter is so many times as wide as lines are apart, or could pass between them: the largest circle between the lines of a
+/// square lattice has a diameter of √2 of its sides.
+const LEAST_WIDTH: f64 = 1.5;
+/// What can be done about a cutter that is not known.
+const STATE_CUTTER: &str = "state diameter, corner_radius and, where it is another, the cutter of the tool in the set-up file";
 
 /// A tool as the stock sees it.
 struct Tool {
@@ -128,7 +137,7 @@ impl Machined {
 pub struct Machining {
     stock: Stock,
     before_mm3: f64,
-    tools: BTreeMap<u32, Result<Tool, String>>,
+    tools: BTreeMap<u32, Result<Tool, Unknown>>,
     spacing_mm: f64,
     /// Farther from its tip no tool is in the stock while its tip is near, mm.
     diagonal_mm: f64,
@@ -145,9 +154,12 @@ pub struct Machining {
     blocks: BTreeMap<(u32, u32), BlockUse>,
     gouged_mm3: f64,
     /// Tools whose shape is not known, with the block where they come and the reason.
-    unknown: BTreeMap<u32, (Origin, String)>,
+    unknown: BTreeMap<u32, (Origin, Unknown)>,
     log: Log,
 }
+
+/// Why it is not known what a tool cuts, and what to do.
+type Unknown = (String, String);
 
 impl Machining {
     /// The stock of a set-up.
@@ -161,7 +173,12 @@ impl Machining {
             ("the set-up file states no stock".to_owned(), hint.to_owned())
         })?;
         let triangles = placed(stock);
-        let resolution_mm = setup.stock_resolution_mm.unwrap_or_else(|| usual(&triangles));
+        let known = setup.tools.iter().map(|(number, tool)| (*number, Tool::of(*number, tool)));
+        let known: BTreeMap<u32, Result<Tool, String>> = known.collect();
+        let widths = known.values().flatten().map(Tool::width_mm);
+        let thinnest_mm = widths.fold(f64::INFINITY, f64::min);
+        let usual = || usual(&triangles, thinnest_mm);
+        let resolution_mm = setup.stock_resolution_mm.unwrap_or_else(usual);
         let refused = |name: &str, error: StockError| {
             let hint = "a closed mesh in mm, and a `resolution` of [stock] such as \"0.5 mm\"";
             (format!("{name}: {error}"), hint.to_owned())
@@ -173,10 +190,11 @@ impl Machining {
         }
         let [low, high] = cut.corners_mm();
         let diagonal_mm = (high - low).norm();
-        let tool = |(number, tool): (&u32, &SetUpTool)| {
-            (*number, Tool::of(*number, tool).and_then(|tool| tool.fits(diagonal_mm)))
+        let fits = |tool: Result<Tool, String>| {
+            let known = tool.and_then(|tool| tool.fits(diagonal_mm));
+            known.map_err(|why| (why, STATE_CUTTER.to_owned()))?.is_seen(resolution_mm)
         };
-        let tools = setup.tools.iter().map(tool);
+        let tools = known.into_iter().map(|(number, tool)| (number, fits(tool)));
         Ok(Self {
             before_mm3: cut.volume_mm3(),
             stock: cut,
@@ -232,10 +250,9 @@ impl Machining {
     /// Tools of unknown shape, and a stock that was not cut to the end.
     fn problems(&self, programs: &[String]) -> Diagnostics {
         let mut problems = Diagnostics::new();
-        for (number, (origin, why)) in &self.unknown {
+        for (number, (origin, (why, hint))) in &self.unknown {
             let place = place_of(*origin, programs);
             let message = format!("tool {number} comes, and what it cuts is not known: {why}");
-            let hint = "state diameter, corner_radius and, where it is another, the cutter of the tool in the set-up file";
             problems.error("unknown-cutter", place, message, hint);
         }
         if let Some(origin) = self.ended_at {
@@ -366,7 +383,7 @@ impl Machining {
             // Without a tool nothing is in the spindle.
             None if number == 0 => {}
             None => {
-                let why = "the set-up file does not state it".to_owned();
+                let why = ("the set-up file does not state it".to_owned(), STATE_CUTTER.to_owned());
                 self.unknown.entry(number).or_insert((origin, why));
             }
         }
@@ -413,7 +430,7 @@ impl Tool {
 impl Tool {
     /// A tool many times as wide or as long as the stock is a slip of the unit; its way through the stock would have no end.
     fn fits(self, diagonal_mm: f64) -> Result<Self, String> {
-        let width_mm = 2.0 * self.cutter.widest_mm();
+        let width_mm = self.width_mm();
         if width_mm > WIDEST * diagonal_mm {
             return Err(format!(
                 "it is {width_mm:.0} mm wide, and the stock measures {diagonal_mm:.0} mm across its corners"
@@ -426,6 +443,25 @@ impl Tool {
             ));
         }
         Ok(self)
+    }
+
+    fn width_mm(&self) -> f64 {
+        2.0 * self.cutter.widest_mm()
+    }
+
+    /// A cutter that is thinner than the stock is fine would pass between its lines without a trace.
+    fn is_seen(self, resolution_mm: f64) -> Result<Self, Unknown> {
+        let width_mm = self.width_mm();
+        let needed_mm = width_mm / LEAST_WIDTH;
+        if resolution_mm <= needed_mm {
+            return Ok(self);
+        }
+        let why = format!(
+            "it is {width_mm} mm wide, and the stock is kept on lines {resolution_mm:.3} mm apart, between which it could pass"
+        );
+        let hint =
+            format!("state `resolution = \"{:.3} mm\"` of [stock] or less", 0.999 * needed_mm);
+        Err((why, hint))
     }
 }
 
@@ -447,6 +483,9 @@ fn extent(triangles: &[[Vec3; 3]]) -> Vec3 {
     corners().fold(Vec3::repeat(f64::MIN), |a, b| a.sup(b)) - low
 }
 
-fn usual(triangles: &[[Vec3; 3]]) -> f64 {
-    (extent(triangles).max() / LINES).max(0.1)
+/// The resolution where none is stated: as fine as the thinnest tool needs, if that can be kept.
+fn usual(triangles: &[[Vec3; 3]], thinnest_mm: f64) -> f64 {
+    let longest_mm = extent(triangles).max();
+    let usual_mm = (longest_mm / LINES).max(0.1);
+    usual_mm.min(thinnest_mm / LEAST_WIDTH).max(longest_mm / MOST_LINES).max(FINEST_MM)
 }

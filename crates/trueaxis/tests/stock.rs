@@ -298,3 +298,35 @@ fn what_cannot_be_cut_is_refused() {
         assert!(found.run.problems.iter().any(|p| p.code == "unknown-cutter"), "{set_up}");
     }
 }
+
+/// Wherever a thin drill plunges into a large plate, it is seen, or said to be thinner than the lines of the stock are apart.
+#[test]
+fn law_a_thin_tool_does_not_pass_between_the_lines_of_the_stock() {
+    let plate =
+        SET_UP.replace("80 50 20 mm", "500 300 20 mm").replace("resolution = \"0.5 mm\"\n", "");
+    for (width, is_seen) in
+        [("3", true), ("1", true), ("0.8", true), ("0.7", false), ("0.1", false)]
+    {
+        let set_up = plate.replace("\"10 mm\"", &format!("\"{width} mm\""));
+        let stated = format!("{set_up}resolution = \"2.5 mm\"\n");
+        for [x, y] in [[17.45, -31.82], [-40.0, 3.3], [0.25, 0.25], [10.1, 40.7]] {
+            let plunge = |word: &str| format!("G0 X{x} Y{y}\n{word} Z-10.\nG0 Z5.\n");
+            if is_seen {
+                let found = run_by(&set_up, &plunge("G0"), Options::default());
+                assert_eq!(critical(&found), [("rapid-in-stock", 8)], "{width} {x}");
+                let found = run_by(&set_up, &plunge("G1 F100"), Options::default());
+                let taken = machined(&found).total().removed_mm3;
+                assert!(critical(&found).is_empty() && taken > 0.0, "{width} {x}");
+            }
+            for set_up in [Some(&stated), Some(&set_up).filter(|_| !is_seen)].into_iter().flatten()
+            {
+                let job = job(MILL, set_up, &program(&plunge("G0")), Options::default());
+                let machining = Machining::watch(&job.setup).expect("a stock");
+                let found = job.run_on(None, Some(machining), &mut []);
+                let said = found.run.problems.iter().find(|p| p.code == "unknown-cutter");
+                let said = said.unwrap_or_else(|| panic!("{width} {x}"));
+                assert!(said.hint.contains("`resolution = "), "{}", said.hint);
+            }
+        }
+    }
+}

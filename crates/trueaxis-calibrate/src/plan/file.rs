@@ -3,8 +3,9 @@
 use super::program::{ProgramSettings, read_program_settings};
 use trueaxis_geometry::exchange::Criterion;
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, Section};
+use trueaxis_measure::instruments::Instrument;
 use trueaxis_measure::measure::path::Path;
-use trueaxis_measure::measure::{Campaign, Readings, path, read_campaign};
+use trueaxis_measure::measure::{Campaign, Kind, Readings, path, read_campaign};
 
 /// A campaign with all that is planned of it.
 #[derive(Debug, Clone)]
@@ -71,6 +72,9 @@ pub fn read_plan(files: &Files, path: &std::path::Path) -> (Option<Plan>, Diagno
         let program = root.section("program", read_program_settings);
         let program = program.map_or(Some(ProgramSettings::default()), |p| p);
         let (paths, candidates, program) = (paths?, candidates?, program?);
+        if !ball_fits(root, campaign, &program) {
+            return None;
+        }
         if paths.is_empty() && candidates.is_none() {
             let message = "there is nothing to measure".to_owned();
             root.error("missing-key", message, "[[path]] kind = \"A\" …, or [candidates]");
@@ -90,6 +94,21 @@ pub fn read_plan(files: &Files, path: &std::path::Path) -> (Option<Plan>, Diagno
         program,
     });
     (plan, problems)
+}
+
+/// A touch probe triggers at the sum of both radii from the centre of the ball: a ball that is as large by itself would be
+/// driven into.
+fn ball_fits(root: &Section<'_>, campaign: &Campaign, program: &ProgramSettings) -> bool {
+    let radius_mm = 0.5 * program.ball_diameter_mm;
+    let touches = |i: &&Instrument| i.kind == Kind::TouchProbeBall && i.length_mm <= radius_mm;
+    let Some(instrument) = campaign.instruments.iter().find(touches) else { return true };
+    let message = format!(
+        "`length` of {} is {} mm, the radii of ball and stylus, and the ball alone has {radius_mm} mm",
+        instrument.name, instrument.length_mm
+    );
+    let hint = "[program] ball_diameter = \"25 mm\" and length = \"15.5 mm\" of the instrument belong together";
+    root.error("contradiction", message, hint);
+    false
 }
 
 fn read_candidates(root: &Section<'_>, item: &Item<'_>, campaign: &Campaign) -> Option<Candidates> {

@@ -18,7 +18,7 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::errors::ErrorValues;
 use trueaxis_measure::measure::path::leaves_travel;
-use trueaxis_motion::{SetUp, ToolSetter, ToolState};
+use trueaxis_motion::{SetUp, SetUpTool, ToolSetter, ToolState};
 
 /// A tool that is measured.
 #[derive(Debug, Clone, PartialEq)]
@@ -179,6 +179,9 @@ fn tools(
                 format!("the diameter of tool {number} shall be measured, but none is stated");
             refuse(message, "diameter = \"6 mm\"");
         }
+        if wants_diameter && tool.diameter_mm.is_some() {
+            refuse_corner(tool, (number, setter), &mut refuse);
+        }
         if is_reference && tool.state.length.is_none() {
             let message = format!("the reference tool {number} has no calibrated length");
             refuse(message, "measured = { length = \"100.0021 mm ± 0.5 um\" }");
@@ -205,6 +208,29 @@ fn tools(
         return None;
     }
     sound.then_some(found)
+}
+
+/// The side of a tool is touched up to `depth` above its tip: there it must have its whole diameter.
+fn refuse_corner(
+    tool: &SetUpTool,
+    (number, setter): (u32, &ToolSetter),
+    refuse: &mut impl FnMut(String, &str),
+) {
+    let depth_mm = setter.depth_mm;
+    match tool.whole_from_mm() {
+        Some(from_mm) if from_mm <= depth_mm => {}
+        Some(from_mm) => {
+            let message = format!(
+                "tool {number} has its whole diameter from {from_mm:.3} mm above its tip on, and its side is touched {depth_mm} mm above it"
+            );
+            let hint = "`depth` of [tool_setter] must reach above the corner radius or the point, or leave `measure_diameter` out";
+            refuse(message, hint);
+        }
+        None => {
+            let message = format!("tool {number} is a taper: its side has no one diameter");
+            refuse(message, "leave `measure_diameter` out");
+        }
+    }
 }
 
 impl ToolSetting {

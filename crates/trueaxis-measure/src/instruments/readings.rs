@@ -130,7 +130,7 @@ impl Readings {
 
     /// Reads the table of one instrument.
     ///
-    /// Columns: the axes by letter (mm, deg; an axis that is not named stands at 0), the channels
+    /// Columns: the axes by letter (mm, deg, or with a unit as `X_in`, `C_rad`; an axis that is not named stands at 0), the channels
     /// of the instrument with their unit (`x_um`, `y_um`, `z_um`; `length_mm`; `deviation_um`;
     /// `angle_urad`), and if wanted `group`, `time_s`, `feed_mm_per_min` (0: standing), the direction `n_x`, `n_y`, `n_z` and the
     /// side from which an axis came, `X_approach` (1, −1). All but `length` and those of a probe-ball
@@ -415,8 +415,7 @@ impl<'t> Columns<'t> {
             found.refuse_linear(machine, problems);
         }
         if found.axes.is_empty() {
-            let hint =
-                "head the columns of positions by the letters of the axes: X,Y,Z (mm), A (deg)";
+            let hint = "head the columns of positions by the letters of the axes: X,Y,Z (mm), A (deg), or X_in, A_rad";
             problems.error("missing-column", Place::whole(&table.file), missing("the axes"), hint);
         }
         // Points without a reading are on the element: the axes are the reading.
@@ -447,7 +446,7 @@ impl<'t> Columns<'t> {
         if let Some(index) = axis(&column.name) {
             let rotary = machine.axes()[index].kind == AxisKind::Rotary;
             let scale = if rotary { 1f64.to_radians() } else { 1.0 };
-            return self.axes.push((index, scale, column));
+            return self.take_axis((index, scale), column, problems);
         }
         match column.name.as_str() {
             "n_x" | "n_y" | "n_z" => return,
@@ -459,8 +458,18 @@ impl<'t> Columns<'t> {
         if let ("time", Ok(unit)) = (name, Unit::find(unit, Dimension::Time)) {
             return self.time = Some((unit, column));
         }
-        if let Some(index) = axis(name).filter(|_| unit == "approach") {
-            return self.approaches.push((index, column));
+        if let Some(index) = axis(name) {
+            if unit == "approach" {
+                return self.approaches.push((index, column));
+            }
+            let dimension = match machine.axes()[index].kind {
+                AxisKind::Linear => Dimension::Length,
+                AxisKind::Rotary => Dimension::Angle,
+            };
+            return match Unit::find(unit, dimension) {
+                Ok(unit) => self.take_axis((index, unit.to_inner(1.0)), column, problems),
+                Err(e) => problems.error(e.code(), column.place.clone(), e.to_string(), &e.hint()),
+            };
         }
         if instrument.kind.element().is_some() && ["x", "y", "z"].contains(&name) {
             return; // coordinates in any frame
@@ -487,6 +496,21 @@ impl<'t> Columns<'t> {
             Ok(unit) => self.channels.push((channel, name == "length", unit, column)),
             Err(e) => problems.error(e.code(), column.place.clone(), e.to_string(), &e.hint()),
         }
+    }
+
+    /// Positions of an axis, with the scale to mm or rad.
+    fn take_axis(
+        &mut self,
+        (index, scale): (usize, f64),
+        column: &'t CsvColumn,
+        problems: &mut Diagnostics,
+    ) {
+        if let Some((.., other)) = self.axes.iter().find(|(axis, ..)| *axis == index) {
+            let message = format!("`{}` and `{}` are the same axis", other.name, column.name);
+            let hint = "keep one of the two columns";
+            return problems.error("duplicate-column", column.place.clone(), message, hint);
+        }
+        self.axes.push((index, scale, column));
     }
 
     /// The linear axes follow from where the centre was found.

@@ -57,6 +57,14 @@ impl SetUpTool {
         let apt = shape.apt(diameter_mm, self.corner_radius_mm, length_mm);
         Cutter::new(&apt).map_err(|e| e.to_string())
     }
+
+    /// How far above its tip it has its whole diameter, mm: where its corner ends. None without a diameter, and for a taper,
+    /// which has another diameter everywhere.
+    pub fn whole_from_mm(&self) -> Option<f64> {
+        let shape = self.cutter.unwrap_or_default();
+        let apt = shape.apt(self.diameter_mm?, self.corner_radius_mm, -self.tip_mm.z);
+        (shape.side_rad == 0.0).then_some(apt.corner_axial_mm)
+    }
 }
 
 impl CutterShape {

@@ -115,6 +115,7 @@ def simulate(
     three_phase: Optional[Number] = None,
     smooth: bool = False,
     most_jumps: Optional[int] = None,
+    without_optional: bool = False,
     log_start: Optional[Number] = None,
     path: Optional[Path] = None,
     bodies: Optional[Path] = None,
@@ -142,6 +143,7 @@ def simulate(
     rounding: corner rounding tolerance where the program states none, mm (0.01).
     three_phase: time each block by three phases with this mean acceleration, mm/s²; smooth: its velocity is smooth.
     most_jumps: backward jumps after which the program counts as an endless loop (1000000).
+    without_optional: leave out optional blocks (/), as with the switch of the control on.
     log_start: the program begins at this time of the temperature log, s, and the temperatures follow it.
     path: write every point of the path to this file (CSV; Parquet by its ending). bodies: the pose of every body.
     no_collisions: without the collision check. stock: cut the stock of the set-up.
@@ -174,6 +176,7 @@ def trace(
     three_phase: Optional[Number] = None,
     smooth: bool = False,
     most_jumps: Optional[int] = None,
+    without_optional: bool = False,
     log_start: Optional[Number] = None,
     tool_length: Optional[Number] = None,
     tool: Optional[str] = None,
@@ -195,6 +198,7 @@ def trace(
     rounding: corner rounding tolerance where the program states none, mm (0.01).
     three_phase: time each block by three phases with this mean acceleration, mm/s²; smooth: its velocity is smooth.
     most_jumps: backward jumps after which the program counts as an endless loop (1000000).
+    without_optional: leave out optional blocks (/), as with the switch of the control on.
     log_start: the program begins at this time of the temperature log, s, and the temperatures follow it.
     tool_length: length of the tool from the holder to the tip, mm, instead of the tool of the machine file.
     tool: a tool assembly of the machine file, by its name.

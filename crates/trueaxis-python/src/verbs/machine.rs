@@ -75,6 +75,7 @@ fn program(o: &Options<'_, '_>) -> PyResult<ProgramChoice> {
         smooth: o.is("smooth")?,
         most_jumps: o.count("most_jumps")?.unwrap_or(usual.most_jumps),
         keep_going: o.is("keep_going")?,
+        without_optional: o.is("without_optional")?,
         ..usual
     })
 }

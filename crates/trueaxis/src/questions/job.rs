@@ -37,6 +37,8 @@ pub struct ProgramChoice {
     pub most_jumps: u64,
     /// Whether errors of the program are listed and the simulation goes on.
     pub keep_going: bool,
+    /// Whether optional blocks, `/`, are left out, as the switch of the control does.
+    pub without_optional: bool,
     /// Ends the simulation early on request.
     pub stop: Stop,
 }
@@ -58,6 +60,7 @@ impl Default for ProgramChoice {
             smooth: false,
             most_jumps: Options::default().most_jumps,
             keep_going: false,
+            without_optional: false,
             stop: Stop::default(),
         }
     }
@@ -93,7 +96,10 @@ impl ProgramChoice {
         // With bad options all problems of the files are reported as well.
         let job = Job::read(machine, &named, options.clone().unwrap_or_default(), problems);
         let options = Options { temperatures, stop: self.stop.clone(), ..options? };
-        job.map(|job| Job { options, ..job })
+        job.map(|mut job| {
+            job.setup.without_optional = self.without_optional;
+            Job { options, ..job }
+        })
     }
 
     fn options(&self, problems: &mut Diagnostics) -> Option<Options> {

@@ -6,6 +6,7 @@ use super::hits_file::{Reading, Setup, parse_hits};
 use super::lobing::LobingModel;
 use super::log::{Planned, ProbeLog, is_ring_log, parse_plane_log, parse_ring_log};
 use super::program::{ProgramSettings, read_program};
+use crate::identify::records::table_mark;
 use std::path::Path;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::sheet::{Cells, Sheet};
@@ -367,6 +368,7 @@ fn read_tables(
 ) -> Option<Vec<Hit>> {
     let tables = logs.tables;
     let (mut hits, mut named, mut sound) = (Vec::new(), Vec::new(), true);
+    let mut read: Vec<(String, &str)> = Vec::new();
     for item in list.iter().take(MOST_TABLES) {
         let (name, orientation_rad) = match item.is_table() {
             false => (item.text(), None),
@@ -393,6 +395,15 @@ fn read_tables(
         let own = Setup { orientation_rad: orientation_rad.unwrap_or(0.0), ..*setup };
         let text = (tables.load)(name, &mut found);
         let shown = (tables.show)(name);
+        let mark = text.as_deref().map(table_mark);
+        if let Some((_, twin)) = read.iter().find(|(known, _)| mark.as_ref() == Some(known)) {
+            let message = format!("`{name}` has the same readings as `{twin}`");
+            let hint = "hits and their copy are no two witnesses";
+            item.error("duplicate-table", message, hint);
+            sound = false;
+            continue;
+        }
+        read.extend(mark.map(|mark| (mark, name)));
         let rows = text.and_then(|text| match is_ring_log(&text) {
             true => ring_hits(item, (&shown, &text), (setup, checks), logs, &mut found),
             false => parse_hits(&shown, &text, &own, &mut found),
