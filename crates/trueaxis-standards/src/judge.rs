@@ -209,18 +209,17 @@ fn circular(circle: &Circular, conditions: &Conditions) -> Vec<Figure> {
         let dimension = Dimension::Length;
         all.extend(value.map(|value| Figure { name, dimension, value, uncertainty }));
     };
-    for p in &circle.paths {
-        let sense = p.path.sense.word();
-        put(format!("G_{sense}"), Some(p.g_mm), two);
-        put(format!("F_{sense}_max"), p.f_mm.map(|f| f[0]), one);
-        put(format!("F_{sense}_min"), p.f_mm.map(|f| f[1]), one);
+    for sense in circle.senses() {
+        let (word, worst) = (sense.word(), circle.worst(Some(sense)));
+        put(format!("G_{word}"), worst.map(|w| w.g_mm), two);
+        put(format!("F_{word}_max"), worst.and_then(|w| w.f_mm).map(|f| f[0]), one);
+        put(format!("F_{word}_min"), worst.and_then(|w| w.f_mm).map(|f| f[1]), one);
     }
-    put("G".to_owned(), circle.paths.iter().map(|p| p.g_mm).reduce(f64::max), two);
+    let worst = circle.worst(None);
+    put("G".to_owned(), worst.map(|w| w.g_mm), two);
     put("G_b".to_owned(), circle.g_both_mm, two);
-    let both = circle.paths.iter().filter_map(|p| p.f_mm);
-    let both = both.reduce(|a, b| [a[0].max(b[0]), a[1].min(b[1])]);
-    put("F_max".to_owned(), both.map(|f| f[0]), one);
-    put("F_min".to_owned(), both.map(|f| f[1]), one);
+    put("F_max".to_owned(), worst.and_then(|w| w.f_mm).map(|f| f[0]), one);
+    put("F_min".to_owned(), worst.and_then(|w| w.f_mm).map(|f| f[1]), one);
     put("D".to_owned(), circle.d_mm, one);
     for f in circle.diagnosis.iter().flat_map(|d| &d.found) {
         if matches!(f.cause, Cause::Unexplained) {
