@@ -32,6 +32,8 @@ pub struct Figure {
     pub value: f64,
     /// Its uncertainty; `None` where too little is known of the instrument.
     pub uncertainty: Option<Expanded>,
+    /// What it can be at most, where the readings leave that open. Unit: mm, rad or °C.
+    pub at_most: Option<f64>,
 }
 
 /// A tolerance: the largest size that a figure may have.
@@ -98,7 +100,7 @@ pub fn decide(value: f64, expanded: Option<f64>, limit: f64, is_guarded: bool) -
 /// Every figure of an evaluation that may have a tolerance.
 pub fn figures(evaluated: &Evaluated, conditions: &Conditions) -> Vec<Figure> {
     let plain = |name: String, dimension, value: Option<f64>| {
-        value.map(|value| Figure { name, dimension, value, uncertainty: None })
+        value.map(|value| Figure { name, dimension, value, uncertainty: None, at_most: None })
     };
     match evaluated {
         Evaluated::Positioning(_, result) => positioning("", result),
@@ -114,19 +116,26 @@ pub fn figures(evaluated: &Evaluated, conditions: &Conditions) -> Vec<Figure> {
                     all.reduce(|a, b| if b.0.abs() > a.0.abs() { b } else { a })?;
                 let name = format!("{}_d", quantity.key());
                 let uncertainty = expanded.map(prescribed);
-                Some(Figure { name, dimension: Dimension::Length, value, uncertainty })
+                Some(Figure {
+                    name,
+                    dimension: Dimension::Length,
+                    value,
+                    uncertainty,
+                    at_most: None,
+                })
             });
             largest.into_iter().flatten().chain(own).collect()
         }
         Evaluated::Drift(drift) => {
             let of_channel = drift.channels.iter().flat_map(|c| {
-                let of = |name: &str, value| {
-                    plain(format!("{}.{name}", c.name), c.dimension, Some(value))
+                let of = |name: &str, value, at_most: Option<f64>| {
+                    let figure = plain(format!("{}.{name}", c.name), c.dimension, Some(value));
+                    figure.map(|figure| Figure { at_most, ..figure })
                 };
                 [
-                    of("range", c.range),
-                    of("first_window", c.first_window),
-                    of("largest_window", c.largest_window.0),
+                    of("range", c.range, None),
+                    of("first_window", c.first_window, Some(c.at_most[0])),
+                    of("largest_window", c.largest_window.0, Some(c.at_most[1])),
                 ]
             });
             of_channel.flatten().collect()
@@ -137,6 +146,7 @@ pub fn figures(evaluated: &Evaluated, conditions: &Conditions) -> Vec<Figure> {
                 dimension: if q.is_angle { Dimension::Angle } else { Dimension::Length },
                 value: q.value,
                 uncertainty: q.expanded.map(prescribed),
+                at_most: None,
             };
             test.quantities.iter().map(of).collect()
         }
@@ -146,6 +156,7 @@ pub fn figures(evaluated: &Evaluated, conditions: &Conditions) -> Vec<Figure> {
                 dimension: Dimension::Length,
                 value: q.value_mm,
                 uncertainty: q.expanded_mm.map(prescribed),
+                at_most: None,
             };
             test.quantities.iter().map(of).collect()
         }
@@ -182,13 +193,14 @@ fn positioning(prefix: &str, result: &Positioning) -> Vec<Figure> {
             dimension,
             value: result.value(quantity)?,
             uncertainty: result.expanded_of(quantity).map(prescribed),
+            at_most: None,
         })
     };
     let vdi = &result.others.vdi3441;
     let others = [("P", vdi.p), ("Pa", vdi.pa), ("Ps", vdi.ps), ("Umax", vdi.u)];
     let others = others.into_iter().filter_map(|(name, value)| {
         let name = format!("{prefix}{name}");
-        Some(Figure { name, dimension, value: value?, uncertainty: None })
+        Some(Figure { name, dimension, value: value?, uncertainty: None, at_most: None })
     });
     Quantity::ALL.into_iter().filter_map(of).chain(others).collect()
 }
@@ -207,7 +219,13 @@ fn circular(circle: &Circular, conditions: &Conditions) -> Vec<Figure> {
     let mut all = Vec::new();
     let mut put = |name: String, value: Option<f64>, uncertainty: Option<Expanded>| {
         let dimension = Dimension::Length;
-        all.extend(value.map(|value| Figure { name, dimension, value, uncertainty }));
+        all.extend(value.map(|value| Figure {
+            name,
+            dimension,
+            value,
+            uncertainty,
+            at_most: None,
+        }));
     };
     for sense in circle.senses() {
         let (word, worst) = (sense.word(), circle.worst(Some(sense)));
@@ -229,7 +247,8 @@ fn circular(circle: &Circular, conditions: &Conditions) -> Vec<Figure> {
         let dimension =
             if f.cause == Cause::Squareness { Dimension::Angle } else { Dimension::Length };
         let name = format!("{}{axis}", f.cause.key());
-        all.push(Figure { name, dimension, value: f.value, uncertainty: Some(f.uncertainty) });
+        let uncertainty = Some(f.uncertainty);
+        all.push(Figure { name, dimension, value: f.value, uncertainty, at_most: None });
     }
     all
 }
@@ -381,7 +400,15 @@ pub fn judge(
                 "state the instrument in [uncertainty] of the conditions file, or --rule simple";
             problems.warn("missing-uncertainty", tolerance.place.clone(), message, hint);
         }
-        let decision = decide(figure.value, expanded, tolerance.limit, is_guarded);
+        let mut decision = decide(figure.value, expanded, tolerance.limit, is_guarded);
+        // What a gap may hide conforms as well, or nothing is proved.
+        let at_most =
+            figure.at_most.map(|most| decide(most, expanded, tolerance.limit, is_guarded));
+        if decision == Decision::Conforming
+            && at_most.is_some_and(|worst| worst != Decision::Conforming)
+        {
+            decision = Decision::NotProved;
+        }
         judged.push(Judged {
             figure: figure.clone(),
             limit: tolerance.limit,
@@ -428,6 +455,7 @@ mod tests {
             dimension: Dimension::Length,
             value: 1e-3,
             uncertainty: None,
+            at_most: None,
         };
         for (typed, code) in [
             ("A", "bad-tolerance"),

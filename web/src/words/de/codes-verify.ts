@@ -39,6 +39,7 @@ export const codes: Dictionary = {
   "missing-drift": "Drift während der Prüfung unbekannt",
   "missing-temperature": "Temperatur zum Ausdehnungskoeffizienten fehlt",
   "stuck-channel": "Kanal ändert sich nie",
+  "gap-in-record": "Aufzeichnung mit Lücken",
   "short-record": "Aufzeichnung kürzer als Auswertefenster",
   "missing-radius": "Sollradius des Kreises fehlt",
   "missing-centre": "Sollmittelpunkt des Kreises fehlt",

@@ -39,6 +39,7 @@ export const codes: Dictionary = {
   "missing-drift": "检验期间的漂移未知",
   "missing-temperature": "膨胀系数缺少对应温度",
   "stuck-channel": "通道读数始终不变",
+  "gap-in-record": "记录有间断",
   "short-record": "记录短于评定时段",
   "missing-radius": "缺少圆的名义半径",
   "missing-centre": "缺少圆的名义圆心",
