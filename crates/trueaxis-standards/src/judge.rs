@@ -253,14 +253,26 @@ fn circular(circle: &Circular, conditions: &Conditions) -> Vec<Figure> {
     all
 }
 
+/// Where tolerances are read from, and what they are for.
+#[derive(Debug, Clone, Copy)]
+pub struct ToleranceFile<'a> {
+    /// The file of tolerances, if there is one.
+    pub path: Option<&'a Path>,
+    /// Where it lies.
+    pub files: &'a Files,
+    /// The axis that was measured.
+    pub axis: Option<&'a str>,
+    /// The figures of the evaluation.
+    pub figures: &'a [Figure],
+}
+
 /// Reads tolerances: `A=10 um` each, and those of a file for the axis that was measured; what was typed has priority.
 pub fn tolerances(
     typed: &[String],
-    file: Option<&Path>,
-    files: &Files,
-    axis: Option<&str>,
+    of: &ToleranceFile<'_>,
     problems: &mut Diagnostics,
 ) -> Vec<Tolerance> {
+    let ToleranceFile { path: file, files, axis, figures } = *of;
     let place = Place::whole("--tolerance");
     let mut all: Vec<Tolerance> = Vec::new();
     for text in typed {
@@ -284,8 +296,15 @@ pub fn tolerances(
     if let Some((path, text)) = text {
         let file = path.display().to_string();
         let source = SourceText::new(&file, &text);
-        let of_file = source.read(|root| read_file(root, axis));
-        problems.append(source.finish());
+        let of_file = source.read(|root| read_file(root, axis, figures));
+        let read = source.finish();
+        if of_file.is_empty() && !read.has_errors() {
+            let of = axis.map_or(String::new(), |a| format!(" to axis {a}"));
+            let message = format!("no tolerance of this file applies{of}: nothing of it is judged");
+            let hint = "[tolerance] for every axis, [axis.X] for the axis that the conditions name";
+            problems.warn("tolerances-unused", Place::whole(&file), message, hint);
+        }
+        problems.append(read);
         let is_new = |t: &Tolerance| all.iter().all(|known| known.name != t.name);
         let new: Vec<Tolerance> = of_file.into_iter().filter(is_new).collect();
         all.extend(new);
@@ -293,8 +312,9 @@ pub fn tolerances(
     all
 }
 
-/// `[tolerance]` for every axis, `[axis.X]` for one.
-fn read_file(root: &Section<'_>, axis: Option<&str>) -> Vec<Tolerance> {
+/// `[tolerance]` for every axis, `[axis.X]` for one. Where no axis is stated, a tolerance of one axis for a figure that was
+/// evaluated would be left out, and the looser one of every axis taken: that is an error.
+fn read_file(root: &Section<'_>, axis: Option<&str>, figures: &[Figure]) -> Vec<Tolerance> {
     root.text("name");
     root.text("source");
     let mut all: Vec<Tolerance> = Vec::new();
@@ -305,6 +325,14 @@ fn read_file(root: &Section<'_>, axis: Option<&str>) -> Vec<Tolerance> {
     root.section("axis", |axes| {
         for (name, _, item) in axes.entries() {
             let own = item.section(&axes.path(name), read).unwrap_or_default();
+            let meant = own.iter().find(|t| figures.iter().any(|f| f.name == t.name));
+            if let (None, Some(tolerance)) = (axis, meant) {
+                let message = format!(
+                    "`{}` has a tolerance for axis {name}, and the readings do not say of which axis they are",
+                    tolerance.name
+                );
+                item.error("bad-tolerance", message, "axis = \"X\" in the conditions file");
+            }
             if axis.is_some_and(|a| a.eq_ignore_ascii_case(name)) {
                 all.extend(own);
             }
@@ -439,8 +467,16 @@ mod tests {
             "[tolerance]\nA = '10 um'\nR = '6 um'\n[axis.X]\nA = '8 um'\n[axis.C]\nA = '5 arcsec'";
         let read = |axis: Option<&str>| {
             let source = SourceText::new("t.toml", text);
-            let all = source.read(|root| read_file(root, axis));
-            assert!(!source.finish().has_errors());
+            let figure = Figure {
+                name: "A".into(),
+                dimension: Dimension::Length,
+                value: 1e-3,
+                uncertainty: None,
+                at_most: None,
+            };
+            let all = source.read(|root| read_file(root, axis, &[figure]));
+            // Without an axis it is not known whether 10 or 8 µm hold.
+            assert_eq!(source.finish().has_errors(), axis.is_none());
             all.iter().map(|t| (t.name.clone(), t.limit)).collect::<Vec<_>>()
         };
         let a = |limit: f64| ("A".to_owned(), limit);
@@ -466,7 +502,9 @@ mod tests {
             ("A=2 um", "missing-uncertainty"),
         ] {
             let mut problems = Diagnostics::new();
-            let read = tolerances(&[typed.to_owned()], None, &Files::none(), None, &mut problems);
+            let files = Files::none();
+            let of = ToleranceFile { path: None, files: &files, axis: None, figures: &[] };
+            let read = tolerances(&[typed.to_owned()], &of, &mut problems);
             judge(std::slice::from_ref(&figure), &read, true, &mut problems);
             assert_eq!(problems.iter().next().map(|d| d.code), Some(code), "{typed}");
         }

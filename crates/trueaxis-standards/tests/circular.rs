@@ -28,8 +28,8 @@ fn table(runs: &[Run<'_>], shift: [f64; 2]) -> String {
 
 fn found(text: &str) -> (Circular, Vec<&'static str>) {
     let (centre_mm, radius_mm) = (Some([0.0; 2]), Some(RADIUS_MM));
-    let mut conditions = Conditions::default();
-    conditions.circle = Circle { centre_mm, radius_mm, ..Circle::default() };
+    let circle = Circle { centre_mm, radius_mm, ..Circle::default() };
+    let conditions = Conditions { circle, ..Conditions::default() };
     let mut problems = Diagnostics::new();
     let mut circle = evaluate("c.csv", text, conditions.circle, &mut problems).expect("a circle");
     let place = Place::whole("c.toml");
