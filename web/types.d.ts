@@ -4297,7 +4297,7 @@ export interface ClosureEntry {
   largest_um: number;
 }
 /**
- * A circular test by ISO 230-4. For each sense (`ccw`, `cw`) there are `G_ccw_um`, `F_ccw_max_um` and
+ * A circular test by ISO 230-4. For each sense (`ccw`, `cw`), the worst of its paths, there are `G_ccw_um`, `F_ccw_max_um` and
  * `F_ccw_min_um`, then the same over all paths: `G_um`, `G_b_um`, `F_max_um`, `F_min_um` and `D_um`.
  */
 export interface CircularEntry {
@@ -4531,7 +4531,8 @@ export interface DriftEntry {
   channels: ChannelEntry[];
 }
 /**
- * One channel: `range`, `first_window`, `largest_window` and `end`, each with the unit `_um`, `_urad` or `_degC`.
+ * One channel: `range`, `first_window`, `largest_window`, `largest_window_at_most` (if it changes within gaps of the record at the worst
+ * moment) and `end`, each with the unit `_um`, `_urad` or `_degC`.
  */
 export interface ChannelEntry {
   /**
@@ -8545,21 +8546,21 @@ export interface LiveHistoryAxis {
    */
   left: (number | null)[];
   /**
-   * The largest without the correction, of all lines, thinned or not. Unit: that of `unit`.
+   * The largest without the correction, of all lines, thinned or not; null where nothing is known. Unit: that of `unit`.
    */
-  before_max: number;
+  before_max: number | null;
   /**
-   * The largest with it. Unit: that of `unit`.
+   * The largest with it; null as above. Unit: that of `unit`.
    */
-  left_max: number;
+  left_max: number | null;
   /**
-   * The root mean square without the correction. Unit: that of `unit`.
+   * The root mean square without the correction; null as above. Unit: that of `unit`.
    */
-  before_rms: number;
+  before_rms: number | null;
   /**
-   * The root mean square with it. Unit: that of `unit`.
+   * The root mean square with it; null as above. Unit: that of `unit`.
    */
-  left_rms: number;
+  left_rms: number | null;
 }
 /**
  * One sensor over time.

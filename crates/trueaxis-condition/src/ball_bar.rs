@@ -146,7 +146,7 @@ impl<'a> BallBar<'a> {
 
     /// Angles and senses of the readings.
     fn points(&self) -> Vec<(f64, Sense)> {
-        let [x, y] = self.circle.centre_mm;
+        let [x, y] = self.circle.points_centre_mm();
         let paths = self.circle.paths.iter();
         paths
             .flat_map(|r| r.path.points_mm.iter().map(move |p| (r.path.sense, p)))
@@ -159,7 +159,7 @@ impl<'a> BallBar<'a> {
         let points = self.points();
         let mut radial = self.place.read(machine, &points)?.into_iter().zip(points);
         let mut circle = self.circle.clone();
-        let [x, y] = circle.centre_mm;
+        let [x, y] = self.circle.points_centre_mm();
         for result in &mut circle.paths {
             for p in &mut result.path.points_mm {
                 let Some((more, (angle, _))) = radial.next() else { break };
@@ -182,7 +182,7 @@ impl<'a> BallBar<'a> {
     fn residual_mm(&self, machine: &Machine) -> Result<f64, String> {
         let points = self.points();
         let seen = self.place.read(machine, &points)?;
-        let [x, y] = self.circle.centre_mm;
+        let [x, y] = self.circle.points_centre_mm();
         let all = self.circle.paths.iter().flat_map(|r| &r.path.points_mm);
         let read = all.map(|p| (p[0] - x).hypot(p[1] - y) - self.place.radius_mm);
         let rest: Vec<f64> = read.zip(seen).map(|(a, b)| a - b).collect();

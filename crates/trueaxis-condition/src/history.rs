@@ -151,6 +151,16 @@ pub fn history(
         problems.error("other-machine", Place::whole(&other.file), message, hint);
         return None;
     }
+    let with_chain = || calibrations.iter().filter_map(|c| Some((c, c.chain.as_ref()?)));
+    if let Some((known, chain)) = with_chain().next()
+        && let Some((other, its)) = with_chain().find(|(_, other)| *other != chain)
+    {
+        let message = format!("the chain is `{its}`, that of {} is `{chain}`", known.file);
+        let hint =
+            "errors of two chains are not the same quantities: a history is that of one machine";
+        problems.error("other-machine", Place::whole(&other.file), message, hint);
+        return None;
+    }
     check_temperatures(calibrations, problems);
     let mut by_name: BTreeMap<(String, String), Vec<Point>> = BTreeMap::new();
     for calibration in calibrations {
@@ -161,6 +171,7 @@ pub fn history(
     let (mut series, mut single) = (Vec::new(), Vec::new());
     for ((name, unit), mut points) in by_name {
         points.sort_by(|a, b| a.date.cmp(&b.date).then(a.file.cmp(&b.file)));
+        count_copies_once(&name, &mut points, problems);
         if let Some(twice) = points.windows(2).find(|w| w[0].date == w[1].date) {
             let message = format!("`{name}` of {} is also in {}", twice[1].date, twice[0].file);
             let hint = "both count; is one of them a copy, or is its date wrong?";
@@ -171,6 +182,7 @@ pub fn history(
             _ => single.push(name),
         }
     }
+    check_units(&series, limits, problems);
     for name in limits.keys().filter(|n| series.iter().all(|s| s.name != **n)) {
         let names: Vec<&str> = series.iter().map(|s| s.name.as_str()).collect();
         let message = format!("no figure with two dates is named `{name}`");
@@ -184,6 +196,53 @@ pub fn history(
         return None;
     }
     (!problems.has_errors()).then(|| History { machine: first.machine.clone(), series, single })
+}
+
+/// A measurement that stands in several files, as one that was not repeated does in the machine file of the next year.
+fn count_copies_once(name: &str, points: &mut Vec<Point>, problems: &mut Diagnostics) {
+    let mut kept: Vec<Point> = Vec::new();
+    let mut copy: Option<(Point, String)> = None;
+    for point in points.drain(..) {
+        let same = |p: &&Point| (p.date, p.value, p.u) == (point.date, point.value, point.u);
+        match kept.iter().find(same) {
+            Some(first) => copy = copy.or(Some((point, first.file.clone()))),
+            None => kept.push(point),
+        }
+    }
+    *points = kept;
+    if let Some((twice, first)) = copy {
+        let message = format!(
+            "`{name}` of {} is the same in {first}, to the last digit: the two count once",
+            twice.date
+        );
+        let hint = "a measurement counts once, in however many files it stands";
+        problems.note("same-date", Place::whole(&twice.file), message, hint);
+    }
+}
+
+/// A limit of another dimension than its figure would be left out.
+fn check_units(series: &[Series], limits: &Limits, problems: &mut Diagnostics) {
+    for (name, (_, unit)) in limits {
+        let of_name = || series.iter().filter(|s| s.name == *name);
+        let Some(other) =
+            of_name().next().filter(|_| of_name().all(|s| factor(unit, &s.unit).is_none()))
+        else {
+            continue;
+        };
+        let kind = |unit: &str| match unit {
+            "um" => "a length",
+            "urad" | "arcsec" => "an angle",
+            _ => "neither a length nor an angle",
+        };
+        let message =
+            format!("the limit of `{name}` is {}, the figure is {}", kind(unit), kind(&other.unit));
+        problems.error(
+            "wrong-unit",
+            Place::whole("--limit"),
+            message,
+            "a limit in a unit of the figure",
+        );
+    }
 }
 
 fn of_points(name: String, unit: String, points: Vec<Point>, limits: &Limits) -> Series {

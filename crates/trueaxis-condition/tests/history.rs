@@ -19,6 +19,7 @@ fn trend(values: [f64; 3]) -> Trend {
             Calibration {
                 file: day.to_owned(),
                 machine: "m".to_owned(),
+                chain: None,
                 figures: vec![("EC0Y".to_owned(), "urad".to_owned(), point)],
                 tables_celsius: Vec::new(),
             }

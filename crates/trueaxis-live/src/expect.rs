@@ -153,7 +153,10 @@ impl Question for ExpectLive {
         problems: &mut Diagnostics,
     ) -> Option<LiveExpectAnswer> {
         match expect(&plan, &log, self.without.as_deref()) {
-            Ok(found) => Some(LiveExpectAnswer(found)),
+            Ok(found) => {
+                remark_on_ranges(&plan, &log, problems);
+                Some(LiveExpectAnswer(found))
+            }
             Err(message) => {
                 let place = Place::whole(&self.plan.display().to_string());
                 problems.error(
@@ -165,6 +168,26 @@ impl Question for ExpectLive {
                 None
             }
         }
+    }
+}
+
+/// The correction does not use a reading outside the range of its sensor; a forecast from it is one of another plan.
+fn remark_on_ranges(plan: &Plan, log: &TemperatureLog, problems: &mut Diagnostics) {
+    for sensor in &plan.sensors {
+        let Some(celsius) = log.celsius(column(sensor)) else { continue };
+        let [low, high] = sensor.settings.range;
+        let outside: Vec<f64> =
+            celsius.iter().copied().filter(|c| !(low..=high).contains(c)).collect();
+        let Some(first) = outside.first() else { continue };
+        let name = &sensor.settings.name;
+        let message = format!(
+            "{} of {} readings of `{name}` are outside its range of {low} to {high} °C, {first} °C for one: the correction \
+             would not use them, this forecast does",
+            outside.len(),
+            celsius.len()
+        );
+        let hint = format!("is range of [sensor.{name}] right for this day?");
+        problems.warn("live-range", Place::whole(&plan.path.display().to_string()), message, &hint);
     }
 }
 

@@ -42,14 +42,14 @@ pub struct LiveHistoryAxis {
     pub before: Vec<Option<f64>>,
     /// With the offset that acted. Unit: that of `unit`.
     pub left: Vec<Option<f64>>,
-    /// The largest without the correction, of all lines, thinned or not. Unit: that of `unit`.
-    pub before_max: f64,
-    /// The largest with it. Unit: that of `unit`.
-    pub left_max: f64,
-    /// The root mean square without the correction. Unit: that of `unit`.
-    pub before_rms: f64,
-    /// The root mean square with it. Unit: that of `unit`.
-    pub left_rms: f64,
+    /// The largest without the correction, of all lines, thinned or not; null where nothing is known. Unit: that of `unit`.
+    pub before_max: Option<f64>,
+    /// The largest with it; null as above. Unit: that of `unit`.
+    pub left_max: Option<f64>,
+    /// The root mean square without the correction; null as above. Unit: that of `unit`.
+    pub before_rms: Option<f64>,
+    /// The root mean square with it; null as above. Unit: that of `unit`.
+    pub left_rms: Option<f64>,
 }
 
 /// One sensor over time.
@@ -163,12 +163,12 @@ fn thinned(plan: &Plan, rows: &[Row], hours: f64) -> LiveHistory {
         };
         parts.iter().map(of).collect()
     };
-    let all = |column: usize| -> [f64; 2] {
+    let all = |column: usize| -> [Option<f64>; 2] {
         let known: Vec<f64> = rows.iter().filter_map(|row| row.values[column]).collect();
-        let most = known.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+        let most = known.iter().map(|v| v.abs()).reduce(f64::max);
         #[expect(clippy::cast_precision_loss, reason = "some thousand lines")]
         let count = known.len().max(1) as f64;
-        [most, (known.iter().map(|v| v * v).sum::<f64>() / count).sqrt()]
+        [most, most.map(|_| (known.iter().map(|v| v * v).sum::<f64>() / count).sqrt())]
     };
     let axes = plan.axes.iter().enumerate().map(|(i, axis)| {
         let [[before_max, before_rms], [left_max, left_rms]] = [2 * i, 2 * i + 1].map(all);

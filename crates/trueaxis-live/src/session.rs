@@ -433,5 +433,11 @@ pub fn replay(files: &Files, plan: &Path, record: &Path) -> Result<Replayed, Dia
             replayed.differs = Some(replayed.cycles);
         }
     }
+    if replayed.cycles == 0 {
+        let message = "this record has no cycle: nothing was replayed".to_owned();
+        let hint = "name the record of a run that has made cycles";
+        problems.error("live-record", Place::whole(&shown), message, hint);
+        return Err(problems);
+    }
     Ok(replayed)
 }

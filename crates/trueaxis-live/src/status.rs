@@ -358,7 +358,8 @@ fn history_section(history: &LiveHistory) -> Section<'_> {
     let rows = history.axes.iter().map(|axis| {
         let unit = if axis.unit == "um" { "µm" } else { "µrad" };
         let numbers = [axis.before_max, axis.left_max, axis.before_rms, axis.left_rms];
-        let [a, b, c, d] = numbers.map(|v| fixed(v, 1));
+        let shown = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |v| fixed(v, 1));
+        let [a, b, c, d] = numbers.map(shown);
         [axis.axis.clone(), a, b, c, d, unit.to_owned()]
     });
     let headings = ["axis", "largest before", "after", "rms before", "after", ""];

@@ -22,4 +22,4 @@ pub mod virtual_campaign;
 pub use crate::instruments::{Element, Instrument, Kind, Motion, Reading, Readings, instrument};
 pub use campaign::{Campaign, read_campaign, readings_file};
 pub use motion::fill_motion;
-pub use tables::read_table;
+pub use tables::{read_table, without_copies};

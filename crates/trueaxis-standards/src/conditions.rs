@@ -117,7 +117,7 @@ fn read_root(root: &Section<'_>) -> Conditions {
         item.error("temperature-range", message, &hint);
     }
     let circle = root.section("circle", read_circle).unwrap_or_default();
-    let edges = root.section("volume", |s| s.get("edges").and_then(|item| lengths::<3>(&item)));
+    let edges = root.section("volume", |s| s.get("edges").and_then(|item| edges(&item)));
     Conditions {
         name: text("name"),
         machine: text("machine"),
@@ -220,6 +220,17 @@ fn positive(item: &Item<'_>, dimension: Dimension) -> Option<f64> {
         return None;
     }
     Some(value)
+}
+
+/// The edges of a volume.
+fn edges(item: &Item<'_>) -> Option<[f64; 3]> {
+    let edges = lengths::<3>(item)?;
+    if let Some(edge) = edges.into_iter().find(|edge| *edge <= 0.0) {
+        let hint = "the lengths of the edges along X, Y and Z, such as \"500 400 300 mm\"";
+        item.error("not-positive", format!("an edge of {edge} mm is not positive"), hint);
+        return None;
+    }
+    Some(edges)
 }
 
 /// `"500 400 300 mm"`.

@@ -98,7 +98,7 @@ pub fn evaluate(
     conditions: &Conditions,
     problems: &mut Diagnostics,
 ) -> Option<Probing> {
-    let sheet = Sheet::parse(file, text, cells, problems)?;
+    let sheet = once(&Sheet::parse(file, text, cells, problems)?, problems);
     super::check_temperatures(&sheet, problems);
     let known = ["angle", "i", "j", "k"];
     for column in sheet.columns.iter().filter(|c| c.cells == Cells::Unused) {
@@ -124,6 +124,17 @@ pub fn evaluate(
         return None;
     }
     Some(found)
+}
+
+/// Without copies: of points around a ring or a ball none is hit twice alike; hits of one point may read the same, unless
+/// the whole table was pasted again.
+fn once(sheet: &Sheet, problems: &mut Diagnostics) -> Sheet {
+    let sheet = sheet.with_repeats(problems);
+    let test = sheet.columns.iter().find(|c| c.name == "test" && c.cells == Cells::Words);
+    let is_of_one_point = |row: usize| {
+        test.is_some_and(|c| ["point", "tool"].contains(&&*sheet.words[c.values[row] as usize]))
+    };
+    sheet.with_copies_once_of(|row| !is_of_one_point(row), problems)
 }
 
 fn rows(sheet: &Sheet, problems: &mut Diagnostics) -> Option<Vec<Row>> {

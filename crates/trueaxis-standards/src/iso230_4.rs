@@ -1,7 +1,8 @@
 //! ISO 230-4: circular tests: G, G(b), F, D, and the causes of the deviations.
 //!
 //! Docs/model.md eq. 68 to 70. G is taken about the least-squares centre, F about the nominal one,
-//! outward positive; what was recorded beyond one whole turn is left out, half at each end.
+//! outward positive; what was recorded beyond whole turns is left out, half at each end, and arcs beside whole circles are,
+//! too. Of several paths in one direction the worst counts.
 //!
 //! ```
 //! use trueaxis_input::Diagnostics;
@@ -60,16 +61,72 @@ pub struct Circular {
     pub radius_mm: Option<f64>,
     /// Every path, in the order of the file.
     pub paths: Vec<PathResult>,
-    /// G(b): both directions about their common least-squares centre, mm.
+    /// G(b): all paths of both directions about their common least-squares centre, mm.
     pub g_both_mm: Option<f64>,
     /// F max and F min of both directions, mm.
     pub f_both_mm: Option<[f64; 2]>,
-    /// D, mean bidirectional radial deviation, mm.
+    /// D, mean bidirectional radial deviation, mm: of all pairs of a path in each direction the one farthest from zero.
     pub d_mm: Option<f64>,
     /// The causes of the deviations.
     pub causes: Option<Causes>,
     /// All causes with uncertainties and shares, from both directions.
     pub diagnosis: Option<Diagnosis>,
+}
+
+/// The results of a direction, or of all paths.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Worst {
+    /// The largest G, mm.
+    pub g_mm: f64,
+    /// The largest F max and the smallest F min, mm.
+    pub f_mm: Option<[f64; 2]>,
+}
+
+impl Circular {
+    /// The worst of the paths in one direction, or of all; the order of the paths does not matter.
+    pub fn worst(&self, sense: Option<Sense>) -> Option<Worst> {
+        let of = |p: &PathResult| Worst { g_mm: p.g_mm, f_mm: p.f_mm };
+        let paths = self.paths.iter().filter(|p| sense.is_none_or(|s| p.path.sense == s));
+        paths.map(of).reduce(|a, b| Worst {
+            g_mm: a.g_mm.max(b.g_mm),
+            f_mm: a.f_mm.zip(b.f_mm).map(|(a, b)| [a[0].max(b[0]), a[1].min(b[1])]),
+        })
+    }
+
+    /// The directions that were run, in the order of the file.
+    pub fn senses(&self) -> Vec<Sense> {
+        let mut senses: Vec<Sense> = self.paths.iter().map(|p| p.path.sense).collect();
+        if let Some(first) = senses.first().copied() {
+            let other = senses.iter().copied().find(|s| *s != first);
+            senses = std::iter::once(first).chain(other).collect();
+        }
+        senses
+    }
+
+    /// The centre of all points: what they deviate is exact in the radius about it. About the nominal centre an
+    /// eccentricity e looks like an ellipse of e²/(2R).
+    pub fn points_centre_mm(&self) -> [f64; 2] {
+        points_centre_mm(&self.paths).unwrap_or(self.centre_mm)
+    }
+}
+
+fn points_centre_mm(paths: &[PathResult]) -> Option<[f64; 2]> {
+    let all: Vec<[f64; 2]> = paths.iter().flat_map(|p| p.path.points_mm.iter().copied()).collect();
+    least_squares(&all).ok().map(|zone| zone.center_mm)
+}
+
+/// The mean of two mean radial deviations that is farthest from zero.
+fn d_mm(paths: &[PathResult]) -> Option<f64> {
+    let ends = |sense: Sense| {
+        let of = paths.iter().filter(|p| p.path.sense == sense);
+        let means: Vec<f64> = of.filter_map(|p| p.mean_radial_mm).collect();
+        let [low, high] =
+            [means.iter().copied().reduce(f64::min), means.into_iter().reduce(f64::max)];
+        Some([low?, high?])
+    };
+    let (a, b) = (ends(Sense::Clockwise)?, ends(Sense::CounterClockwise)?);
+    let [low, high] = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+    Some(if low.abs() > high.abs() { low } else { high })
 }
 
 /// Reads and evaluates the points of a circular test; `None` with errors in `problems`.
@@ -104,8 +161,11 @@ pub fn evaluate(
         let hint = "write [circle] radius = \"150 mm\" in the conditions file, or --radius 150";
         problems.warn("missing-radius", place.clone(), message, hint);
     }
-    if let (Some(nominal), Some(path)) = (points.radius_mm, paths.first())
-        && (path.circle.radius_mm - nominal).abs() > WRONG_RADIUS * nominal
+    let is_wrong = |p: &&PathResult, nominal: f64| {
+        (p.circle.radius_mm - nominal).abs() > WRONG_RADIUS * nominal
+    };
+    if let Some(nominal) = points.radius_mm
+        && let Some(path) = paths.iter().find(|p| is_wrong(p, nominal))
     {
         let message = format!(
             "the circle has a radius of {:.3} mm, the nominal one {nominal} mm",
@@ -114,22 +174,20 @@ pub fn evaluate(
         let hint = "is the nominal radius or a unit wrong? F and D are those of the stated one";
         problems.warn("wrong-radius", place.clone(), message, hint);
     }
-    let sense = |s: Sense| paths.iter().find(|p| p.path.sense == s);
-    let both = sense(Sense::Clockwise).zip(sense(Sense::CounterClockwise));
+    let ran = |s: Sense| paths.iter().any(|p| p.path.sense == s);
+    let both = (ran(Sense::Clockwise) && ran(Sense::CounterClockwise)).then_some(());
     if both.is_none() {
         let message = "one direction only: no G(b), no D".to_owned();
         let hint = "servo mismatch and squareness cannot be separated either; run cw and ccw";
         problems.warn("one-direction", place, message, hint);
     }
-    let g_both_mm = both.and_then(|(a, b)| {
-        let all: Vec<[f64; 2]> = [&a.path.points_mm[..], &b.path.points_mm[..]].concat();
-        least_squares(&all).ok().map(|zone| zone.width_mm())
+    let g_both_mm = both.and_then(|()| {
+        let all = paths.iter().flat_map(|p| p.path.points_mm.iter().copied());
+        least_squares(&all.collect::<Vec<_>>()).ok().map(|zone| zone.width_mm())
     });
-    let f_both_mm = both.and_then(|(a, b)| {
-        let (a, b) = (a.f_mm?, b.f_mm?);
-        Some([a[0].max(b[0]), a[1].min(b[1])])
-    });
-    let d_mm = both.and_then(|(a, b)| Some(0.5 * (a.mean_radial_mm? + b.mean_radial_mm?)));
+    let f = |a: [f64; 2], b: [f64; 2]| [a[0].max(b[0]), a[1].min(b[1])];
+    let f_both_mm = both.and_then(|()| paths.iter().filter_map(|p| p.f_mm).reduce(f));
+    let d_mm = d_mm(&paths);
     let causes = causes::separate(&paths, centre_mm, points.radius_mm);
     let (axes, radius_mm) = (points.axes, points.radius_mm);
     let diagnosis = None;

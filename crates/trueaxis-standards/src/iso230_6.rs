@@ -154,6 +154,7 @@ pub fn evaluate(
         let stretch = stretch(&result);
         diagonals.push(DiagonalResult { diagonal, measurement, result, stretch });
     }
+    check_edges(file, &diagonals, conditions, problems)?;
     let squareness = squareness(&diagonals, conditions);
     if squareness.is_empty() {
         let message = "the squareness of the axes is not evaluated".to_owned();
@@ -162,6 +163,33 @@ pub fn evaluate(
         problems.note("no-squareness", Place::whole(file), message, hint);
     }
     Some(Diagonals { diagonals, squareness })
+}
+
+/// A diagonal that is longer than its edges allow is that of another volume, and its direction is not known.
+fn check_edges(
+    file: &str,
+    diagonals: &[DiagonalResult],
+    conditions: &Conditions,
+    problems: &mut Diagnostics,
+) -> Option<()> {
+    /// Targets may lie a little beyond the corners.
+    const BEYOND: f64 = 1.02;
+    let Some(edges) = conditions.edges_mm else { return Some(()) };
+    let edges = [edges.x, edges.y, edges.z];
+    for d in diagonals {
+        let whole: f64 = d.diagonal.axes().map(|i| edges[i] * edges[i]).sum();
+        let (whole, measured) = (whole.sqrt(), d.measurement.length());
+        if measured > BEYOND * whole {
+            let message = format!(
+                "{} was measured over {measured:.1} mm, with these edges it has {whole:.1} mm",
+                d.diagonal.name()
+            );
+            let hint = "[volume] edges = \"500 400 300 mm\" along X, Y and Z: those of the volume that was measured";
+            problems.error("edges-differ", Place::whole(file), message, hint);
+            return None;
+        }
+    }
+    Some(())
 }
 
 /// Slope of the mean deviations over the targets.

@@ -32,6 +32,8 @@ pub struct Figure {
     pub value: f64,
     /// Its uncertainty; `None` where too little is known of the instrument.
     pub uncertainty: Option<Expanded>,
+    /// What it can be at most, where the readings leave that open. Unit: mm, rad or °C.
+    pub at_most: Option<f64>,
 }
 
 /// A tolerance: the largest size that a figure may have.
@@ -98,7 +100,7 @@ pub fn decide(value: f64, expanded: Option<f64>, limit: f64, is_guarded: bool) -
 /// Every figure of an evaluation that may have a tolerance.
 pub fn figures(evaluated: &Evaluated, conditions: &Conditions) -> Vec<Figure> {
     let plain = |name: String, dimension, value: Option<f64>| {
-        value.map(|value| Figure { name, dimension, value, uncertainty: None })
+        value.map(|value| Figure { name, dimension, value, uncertainty: None, at_most: None })
     };
     match evaluated {
         Evaluated::Positioning(_, result) => positioning("", result),
@@ -114,19 +116,26 @@ pub fn figures(evaluated: &Evaluated, conditions: &Conditions) -> Vec<Figure> {
                     all.reduce(|a, b| if b.0.abs() > a.0.abs() { b } else { a })?;
                 let name = format!("{}_d", quantity.key());
                 let uncertainty = expanded.map(prescribed);
-                Some(Figure { name, dimension: Dimension::Length, value, uncertainty })
+                Some(Figure {
+                    name,
+                    dimension: Dimension::Length,
+                    value,
+                    uncertainty,
+                    at_most: None,
+                })
             });
             largest.into_iter().flatten().chain(own).collect()
         }
         Evaluated::Drift(drift) => {
             let of_channel = drift.channels.iter().flat_map(|c| {
-                let of = |name: &str, value| {
-                    plain(format!("{}.{name}", c.name), c.dimension, Some(value))
+                let of = |name: &str, value, at_most: Option<f64>| {
+                    let figure = plain(format!("{}.{name}", c.name), c.dimension, Some(value));
+                    figure.map(|figure| Figure { at_most, ..figure })
                 };
                 [
-                    of("range", c.range),
-                    of("first_window", c.first_window),
-                    of("largest_window", c.largest_window.0),
+                    of("range", c.range, None),
+                    of("first_window", c.first_window, Some(c.at_most[0])),
+                    of("largest_window", c.largest_window.0, Some(c.at_most[1])),
                 ]
             });
             of_channel.flatten().collect()
@@ -137,6 +146,7 @@ pub fn figures(evaluated: &Evaluated, conditions: &Conditions) -> Vec<Figure> {
                 dimension: if q.is_angle { Dimension::Angle } else { Dimension::Length },
                 value: q.value,
                 uncertainty: q.expanded.map(prescribed),
+                at_most: None,
             };
             test.quantities.iter().map(of).collect()
         }
@@ -146,6 +156,7 @@ pub fn figures(evaluated: &Evaluated, conditions: &Conditions) -> Vec<Figure> {
                 dimension: Dimension::Length,
                 value: q.value_mm,
                 uncertainty: q.expanded_mm.map(prescribed),
+                at_most: None,
             };
             test.quantities.iter().map(of).collect()
         }
@@ -182,13 +193,14 @@ fn positioning(prefix: &str, result: &Positioning) -> Vec<Figure> {
             dimension,
             value: result.value(quantity)?,
             uncertainty: result.expanded_of(quantity).map(prescribed),
+            at_most: None,
         })
     };
     let vdi = &result.others.vdi3441;
     let others = [("P", vdi.p), ("Pa", vdi.pa), ("Ps", vdi.ps), ("Umax", vdi.u)];
     let others = others.into_iter().filter_map(|(name, value)| {
         let name = format!("{prefix}{name}");
-        Some(Figure { name, dimension, value: value?, uncertainty: None })
+        Some(Figure { name, dimension, value: value?, uncertainty: None, at_most: None })
     });
     Quantity::ALL.into_iter().filter_map(of).chain(others).collect()
 }
@@ -207,20 +219,25 @@ fn circular(circle: &Circular, conditions: &Conditions) -> Vec<Figure> {
     let mut all = Vec::new();
     let mut put = |name: String, value: Option<f64>, uncertainty: Option<Expanded>| {
         let dimension = Dimension::Length;
-        all.extend(value.map(|value| Figure { name, dimension, value, uncertainty }));
+        all.extend(value.map(|value| Figure {
+            name,
+            dimension,
+            value,
+            uncertainty,
+            at_most: None,
+        }));
     };
-    for p in &circle.paths {
-        let sense = p.path.sense.word();
-        put(format!("G_{sense}"), Some(p.g_mm), two);
-        put(format!("F_{sense}_max"), p.f_mm.map(|f| f[0]), one);
-        put(format!("F_{sense}_min"), p.f_mm.map(|f| f[1]), one);
+    for sense in circle.senses() {
+        let (word, worst) = (sense.word(), circle.worst(Some(sense)));
+        put(format!("G_{word}"), worst.map(|w| w.g_mm), two);
+        put(format!("F_{word}_max"), worst.and_then(|w| w.f_mm).map(|f| f[0]), one);
+        put(format!("F_{word}_min"), worst.and_then(|w| w.f_mm).map(|f| f[1]), one);
     }
-    put("G".to_owned(), circle.paths.iter().map(|p| p.g_mm).reduce(f64::max), two);
+    let worst = circle.worst(None);
+    put("G".to_owned(), worst.map(|w| w.g_mm), two);
     put("G_b".to_owned(), circle.g_both_mm, two);
-    let both = circle.paths.iter().filter_map(|p| p.f_mm);
-    let both = both.reduce(|a, b| [a[0].max(b[0]), a[1].min(b[1])]);
-    put("F_max".to_owned(), both.map(|f| f[0]), one);
-    put("F_min".to_owned(), both.map(|f| f[1]), one);
+    put("F_max".to_owned(), worst.and_then(|w| w.f_mm).map(|f| f[0]), one);
+    put("F_min".to_owned(), worst.and_then(|w| w.f_mm).map(|f| f[1]), one);
     put("D".to_owned(), circle.d_mm, one);
     for f in circle.diagnosis.iter().flat_map(|d| &d.found) {
         if matches!(f.cause, Cause::Unexplained) {
@@ -230,19 +247,32 @@ fn circular(circle: &Circular, conditions: &Conditions) -> Vec<Figure> {
         let dimension =
             if f.cause == Cause::Squareness { Dimension::Angle } else { Dimension::Length };
         let name = format!("{}{axis}", f.cause.key());
-        all.push(Figure { name, dimension, value: f.value, uncertainty: Some(f.uncertainty) });
+        let uncertainty = Some(f.uncertainty);
+        all.push(Figure { name, dimension, value: f.value, uncertainty, at_most: None });
     }
     all
+}
+
+/// Where tolerances are read from, and what they are for.
+#[derive(Debug, Clone, Copy)]
+pub struct ToleranceFile<'a> {
+    /// The file of tolerances, if there is one.
+    pub path: Option<&'a Path>,
+    /// Where it lies.
+    pub files: &'a Files,
+    /// The axis that was measured.
+    pub axis: Option<&'a str>,
+    /// The figures of the evaluation.
+    pub figures: &'a [Figure],
 }
 
 /// Reads tolerances: `A=10 um` each, and those of a file for the axis that was measured; what was typed has priority.
 pub fn tolerances(
     typed: &[String],
-    file: Option<&Path>,
-    files: &Files,
-    axis: Option<&str>,
+    of: &ToleranceFile<'_>,
     problems: &mut Diagnostics,
 ) -> Vec<Tolerance> {
+    let ToleranceFile { path: file, files, axis, figures } = *of;
     let place = Place::whole("--tolerance");
     let mut all: Vec<Tolerance> = Vec::new();
     for text in typed {
@@ -266,8 +296,15 @@ pub fn tolerances(
     if let Some((path, text)) = text {
         let file = path.display().to_string();
         let source = SourceText::new(&file, &text);
-        let of_file = source.read(|root| read_file(root, axis));
-        problems.append(source.finish());
+        let of_file = source.read(|root| read_file(root, axis, figures));
+        let read = source.finish();
+        if of_file.is_empty() && !read.has_errors() {
+            let of = axis.map_or(String::new(), |a| format!(" to axis {a}"));
+            let message = format!("no tolerance of this file applies{of}: nothing of it is judged");
+            let hint = "[tolerance] for every axis, [axis.X] for the axis that the conditions name";
+            problems.warn("tolerances-unused", Place::whole(&file), message, hint);
+        }
+        problems.append(read);
         let is_new = |t: &Tolerance| all.iter().all(|known| known.name != t.name);
         let new: Vec<Tolerance> = of_file.into_iter().filter(is_new).collect();
         all.extend(new);
@@ -275,8 +312,9 @@ pub fn tolerances(
     all
 }
 
-/// `[tolerance]` for every axis, `[axis.X]` for one.
-fn read_file(root: &Section<'_>, axis: Option<&str>) -> Vec<Tolerance> {
+/// `[tolerance]` for every axis, `[axis.X]` for one. Where no axis is stated, a tolerance of one axis for a figure that was
+/// evaluated would be left out, and the looser one of every axis taken: that is an error.
+fn read_file(root: &Section<'_>, axis: Option<&str>, figures: &[Figure]) -> Vec<Tolerance> {
     root.text("name");
     root.text("source");
     let mut all: Vec<Tolerance> = Vec::new();
@@ -287,6 +325,14 @@ fn read_file(root: &Section<'_>, axis: Option<&str>) -> Vec<Tolerance> {
     root.section("axis", |axes| {
         for (name, _, item) in axes.entries() {
             let own = item.section(&axes.path(name), read).unwrap_or_default();
+            let meant = own.iter().find(|t| figures.iter().any(|f| f.name == t.name));
+            if let (None, Some(tolerance)) = (axis, meant) {
+                let message = format!(
+                    "`{}` has a tolerance for axis {name}, and the readings do not say of which axis they are",
+                    tolerance.name
+                );
+                item.error("bad-tolerance", message, "axis = \"X\" in the conditions file");
+            }
             if axis.is_some_and(|a| a.eq_ignore_ascii_case(name)) {
                 all.extend(own);
             }
@@ -382,7 +428,15 @@ pub fn judge(
                 "state the instrument in [uncertainty] of the conditions file, or --rule simple";
             problems.warn("missing-uncertainty", tolerance.place.clone(), message, hint);
         }
-        let decision = decide(figure.value, expanded, tolerance.limit, is_guarded);
+        let mut decision = decide(figure.value, expanded, tolerance.limit, is_guarded);
+        // What a gap may hide conforms as well, or nothing is proved.
+        let at_most =
+            figure.at_most.map(|most| decide(most, expanded, tolerance.limit, is_guarded));
+        if decision == Decision::Conforming
+            && at_most.is_some_and(|worst| worst != Decision::Conforming)
+        {
+            decision = Decision::NotProved;
+        }
         judged.push(Judged {
             figure: figure.clone(),
             limit: tolerance.limit,
@@ -413,8 +467,16 @@ mod tests {
             "[tolerance]\nA = '10 um'\nR = '6 um'\n[axis.X]\nA = '8 um'\n[axis.C]\nA = '5 arcsec'";
         let read = |axis: Option<&str>| {
             let source = SourceText::new("t.toml", text);
-            let all = source.read(|root| read_file(root, axis));
-            assert!(!source.finish().has_errors());
+            let figure = Figure {
+                name: "A".into(),
+                dimension: Dimension::Length,
+                value: 1e-3,
+                uncertainty: None,
+                at_most: None,
+            };
+            let all = source.read(|root| read_file(root, axis, &[figure]));
+            // Without an axis it is not known whether 10 or 8 µm hold.
+            assert_eq!(source.finish().has_errors(), axis.is_none());
             all.iter().map(|t| (t.name.clone(), t.limit)).collect::<Vec<_>>()
         };
         let a = |limit: f64| ("A".to_owned(), limit);
@@ -429,6 +491,7 @@ mod tests {
             dimension: Dimension::Length,
             value: 1e-3,
             uncertainty: None,
+            at_most: None,
         };
         for (typed, code) in [
             ("A", "bad-tolerance"),
@@ -439,7 +502,9 @@ mod tests {
             ("A=2 um", "missing-uncertainty"),
         ] {
             let mut problems = Diagnostics::new();
-            let read = tolerances(&[typed.to_owned()], None, &Files::none(), None, &mut problems);
+            let files = Files::none();
+            let of = ToleranceFile { path: None, files: &files, axis: None, figures: &[] };
+            let read = tolerances(&[typed.to_owned()], &of, &mut problems);
             judge(std::slice::from_ref(&figure), &read, true, &mut problems);
             assert_eq!(problems.iter().next().map(|d| d.code), Some(code), "{typed}");
         }

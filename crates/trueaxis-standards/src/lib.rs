@@ -205,6 +205,7 @@ pub fn evaluate(request: &Request<'_>, problems: &mut Diagnostics) -> Option<Eva
     match request.standard {
         Standard::Iso230_2 | Standard::Gbt17421_2 | Standard::Vdi3441 | Standard::B5_54 => {
             let measurement = iso230_2::read(file, text, problems)?;
+            compare_temperatures(request, problems);
             iso230_2::check(&measurement, file, problems);
             let place = Place::whole(request.conditions_file);
             let (kind, length) = (measurement.kind, measurement.length());
@@ -220,6 +221,7 @@ pub fn evaluate(request: &Request<'_>, problems: &mut Diagnostics) -> Option<Eva
             iso230_3::evaluate(file, text, request.window_s, problems).map(Evaluated::Drift)
         }
         Standard::Iso230_6 => {
+            compare_temperatures(request, problems);
             iso230_6::evaluate(file, text, conditions, problems).map(Evaluated::Diagonals)
         }
         Standard::Iso230_10 => {
@@ -299,6 +301,35 @@ fn check_temperatures(sheet: &Sheet, problems: &mut Diagnostics) {
             };
             problems.error("temperature-range", sheet.row_place(row), message, &hint);
         }
+    }
+}
+
+/// The temperature that is stated enters U; one that was recorded beside the readings and contradicts it is named.
+fn compare_temperatures(request: &Request<'_>, problems: &mut Diagnostics) {
+    /// Recorded temperatures may be those of the air: less in the mean is not remarked on, K.
+    const SMALL_K: f64 = 1.0;
+    /// So far off a single one is remarked on, K.
+    const LARGE_K: f64 = 5.0;
+    let Some(stated) = request.conditions.temperature_c else { return };
+    // What is wrong with the table is reported where it is evaluated.
+    let mut none = Diagnostics::new();
+    let cells = iso230_2::role_cells;
+    let Some(sheet) = Sheet::parse(request.file, request.text, cells, &mut none) else { return };
+    let Some(column) = sheet.columns.iter().find(|c| c.role() == "temperature") else { return };
+    let of_unit = Unit::find(column.unit(), Dimension::Temperature).is_ok();
+    let [low, high] = [f64::min, f64::max].map(|f| column.values.iter().copied().reduce(f));
+    let (Some(low), Some(high), true) = (low, high, of_unit) else { return };
+    let (value, u) = (stated.value, stated.u.unwrap_or(0.0));
+    let mean = column.values.iter().sum::<f64>() / column.values.len() as f64;
+    let farthest = (high - value).max(value - low);
+    if (mean - value).abs() > SMALL_K.max(3.0 * u) || farthest > LARGE_K.max(3.0 * u) {
+        let message = format!(
+            "`{}` is {low:.1} to {high:.1} °C, the conditions state {value:.1} °C: U is that of the stated one",
+            column.name
+        );
+        let hint = "temperature = \"… ± … degC\" in the conditions: that of the scale during the test; or is the column \
+                    that of another sensor?";
+        problems.warn("other-temperature", column.place.clone(), message, hint);
     }
 }
 

@@ -22,6 +22,8 @@ pub struct Calibration {
     pub file: String,
     /// The machine.
     pub machine: String,
+    /// The chain of a machine file; documents of `evaluate` name none.
+    pub chain: Option<String>,
     /// Name, unit and value of every figure.
     pub figures: Vec<(String, String, Point)>,
     /// At which temperature the table of a figure holds, °C.
@@ -101,8 +103,9 @@ pub fn read_machine(
         let hint = "measured = { date = 2026-03-14 } in [location] and [motion.X], or of an error";
         problems.warn("no-date", Place::whole(file), message, hint);
     }
-    let (file, machine) = (file.to_owned(), machine.name().to_owned());
-    Some(Calibration { file, machine, figures, tables_celsius })
+    let (file, chain) = (file.to_owned(), Some(machine.chain_text()));
+    let machine = machine.name().to_owned();
+    Some(Calibration { file, machine, chain, figures, tables_celsius })
 }
 
 /// At which temperature the table of a positioning error holds: that from which its scale grows, else the one that is stated.
@@ -210,5 +213,5 @@ pub fn read_document(file: &str, text: &str, problems: &mut Diagnostics) -> Opti
         return refuse("no-figures", "the document has no figures".to_owned(), hint);
     }
     let (file, machine) = (file.to_owned(), word("machine").to_owned());
-    Some(Calibration { file, machine, figures, tables_celsius: Vec::new() })
+    Some(Calibration { file, machine, chain: None, figures, tables_celsius: Vec::new() })
 }

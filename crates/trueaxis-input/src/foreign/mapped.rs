@@ -1,5 +1,6 @@
 //! A table is read by its mapping file.
 
+use super::headings::Holds;
 use super::mapping::{Block, Mapping, Source};
 use super::notation::Notation;
 use super::table::{Beside, Layout, Used, cells, heading_row, notation, put_rows};
@@ -128,6 +129,18 @@ impl Mapping {
                 message,
                 "leave one of them",
             );
+            return None;
+        }
+        // One column may hold a word and a direction, but not two numbers.
+        let is_number = |c: &Used| matches!(c.holds, Holds::Large | Holds::Small);
+        let twice = columns.iter().enumerate().find_map(|(i, c)| {
+            let before = columns[..i].iter().find(|b| b.at == c.at && is_number(b))?;
+            is_number(c).then(|| (before.role.clone(), c.role.clone()))
+        });
+        if let Some((first, second)) = twice {
+            let message = format!("`{first}` and `{second}` are the same column of the table");
+            let hint = "each reading has a column of its own: correct one `column`";
+            problems.error("duplicate-column", Place::whole(&self.file), message, hint);
             return None;
         }
         // Where there are no headings the first reading takes that line: ours stands before it.

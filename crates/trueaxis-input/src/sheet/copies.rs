@@ -16,6 +16,17 @@ impl Sheet {
         self.without(&self.copies(), problems)
     }
 
+    /// As [`Sheet::with_copies_once`], but only such rows count once.
+    pub fn with_copies_once_of(
+        &self,
+        is_point: impl Fn(usize) -> bool,
+        problems: &mut Diagnostics,
+    ) -> Self {
+        let mut copies = self.copies();
+        copies.retain(|row, _| is_point(*row));
+        self.without(&copies, problems)
+    }
+
     /// As [`Sheet::with_copies_once`], for readings of few digits, which may be equal by chance. Copies are
     /// equal rows that state their run or their time, and a whole table that was pasted several times.
     pub fn with_repeats(&self, problems: &mut Diagnostics) -> Self {

@@ -37,7 +37,11 @@ pub fn read_table(
 
 /// A row that is equal to an earlier one to the last digit, and does not say that it was read again (its time, its
 /// group), is no second reading: it would make everything look surer.
-fn without_copies(readings: &Readings, table: &CsvTable, problems: &mut Diagnostics) -> Readings {
+pub fn without_copies(
+    readings: &Readings,
+    table: &CsvTable,
+    problems: &mut Diagnostics,
+) -> Readings {
     let says_group = table.column("group").is_some();
     let mut first: BTreeMap<Vec<u64>, usize> = BTreeMap::new();
     let mut copies: BTreeMap<usize, usize> = BTreeMap::new();

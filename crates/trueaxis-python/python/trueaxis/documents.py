@@ -1151,7 +1151,7 @@ class EvaluateDocument(Record):
         largest_um: float
 
     class CircularEntry(Record):
-        """A circular test by ISO 230-4. For each sense (`ccw`, `cw`) there are `G_ccw_um`, `F_ccw_max_um` and `F_ccw_min_um`, then the same over all paths: `G_um`, `G_b_um`, `F_max_um`, `F_min_um` and `D_um`."""
+        """A circular test by ISO 230-4. For each sense (`ccw`, `cw`), the worst of its paths, there are `G_ccw_um`, `F_ccw_max_um` and `F_ccw_min_um`, then the same over all paths: `G_um`, `G_b_um`, `F_max_um`, `F_min_um` and `D_um`."""
         #: The two axes.
         axes: List[str]
         #: The nominal radius, mm; null if none is stated.
@@ -1262,7 +1262,7 @@ class EvaluateDocument(Record):
         channels: List[EvaluateDocument.ChannelEntry]
 
     class ChannelEntry(Record):
-        """One channel: `range`, `first_window`, `largest_window` and `end`, each with the unit `_um`, `_urad` or `_degC`."""
+        """One channel: `range`, `first_window`, `largest_window`, `largest_window_at_most` (if it changes within gaps of the record at the worst moment) and `end`, each with the unit `_um`, `_urad` or `_degC`."""
         #: Its name.
         name: str
         #: Where the window of the largest range begins, s.

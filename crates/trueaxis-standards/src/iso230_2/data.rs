@@ -101,7 +101,7 @@ pub fn role_cells(name: &str) -> Cells {
         _ if name == "run" => Cells::Numbers,
         _ if role.ends_with("_temperature") => Cells::Numbers,
         _ if wide_role(role).is_some() => Cells::Gaps,
-        _ if name == "direction" || name == "diagonal" => Cells::Words,
+        _ if name == "direction" || name == "diagonal" || name == "axis" => Cells::Words,
         _ => Cells::Unused,
     }
 }
@@ -155,6 +155,7 @@ fn of_dimension(
             return None;
         }
     }
+    one_axis(sheet, problems)?;
     let kind = match Unit::find(target.unit(), Dimension::Angle) {
         Ok(_) => AxisKind::Rotary,
         Err(_) => AxisKind::Linear,
@@ -168,6 +169,21 @@ fn of_dimension(
         false => self::wide(sheet, &read, &wide, problems)?,
     };
     Some(Measurement { kind, targets })
+}
+
+/// Readings of several axes in one table would make one set of figures.
+fn one_axis(sheet: &Sheet, problems: &mut Diagnostics) -> Option<()> {
+    let Some(column) = sheet.columns.iter().find(|c| c.name == "axis" && c.cells == Cells::Words)
+    else {
+        return Some(());
+    };
+    let word = |row: usize| sheet.words[column.values[row] as usize].as_str();
+    let other = (1..sheet.rows()).find(|row| !word(*row).eq_ignore_ascii_case(word(0)));
+    let Some(row) = other else { return Some(()) };
+    let message = format!("the readings are of the axes {} and {}", word(0), word(row));
+    let hint = "a positioning test is that of one axis: one table for each";
+    problems.error("several-axes", sheet.row_place(row), message, hint);
+    None
 }
 
 /// Reports every column that is not used.

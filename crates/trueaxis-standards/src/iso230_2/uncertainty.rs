@@ -89,14 +89,32 @@ impl Budget {
             let u = rectangular(range * range / (2.0 * self.length));
             self.shares.push(Share { name: "misalignment", u });
         }
-        let (Some(alpha), Some(t)) = (instrument.expansion_per_k, conditions.temperature_c) else {
-            if instrument.expansion_per_k.is_some() {
-                let message = "a coefficient of expansion without a `temperature`".to_owned();
-                let hint = "write temperature = \"22.3 ± 0.2 degC\"; its share is left out";
-                problems.warn("missing-temperature", place.clone(), message, hint);
+        let (alpha, t) = match (instrument.expansion_per_k, conditions.temperature_c) {
+            (Some(alpha), Some(t)) => (alpha, t),
+            (None, None) => return,
+            (alpha, _) => {
+                let (code, message, hint) = match alpha {
+                    Some(_) => (
+                        "missing-temperature",
+                        "a coefficient of expansion without a `temperature`",
+                        "write temperature = \"22.3 ± 0.2 degC\"; its share is left out",
+                    ),
+                    None => (
+                        "missing-uncertainty",
+                        "a `temperature` without a coefficient of expansion: its share of U is left out",
+                        "write [uncertainty] expansion = \"11.5 ± 1 um/(m·K)\", that of the scale; U is too small without it",
+                    ),
+                };
+                problems.warn(code, place.clone(), message.to_owned(), hint);
+                return;
             }
-            return;
         };
+        if t.u.is_none() {
+            let message =
+                "the temperature has no uncertainty: its share of U is left out".to_owned();
+            let hint = "write temperature = \"22.3 ± 0.2 degC\"; without it the temperature counts as exact, and U is too small";
+            problems.warn("missing-uncertainty", place.clone(), message, hint);
+        }
         if let Some(u) = t.u {
             let u = self.length * alpha.value.abs() * u;
             self.shares.push(Share { name: "temperature measurement", u });

@@ -82,8 +82,9 @@ pub(super) fn separate(
 ) -> Option<Causes> {
     let both = paths.iter().any(|p| p.path.sense != paths[0].path.sense);
     let radius = radius_mm.or(paths.first().map(|p| p.circle.radius_mm))?;
+    let about = super::points_centre_mm(paths)?;
     let polar = |p: &[f64; 2]| {
-        let (x, y) = (p[0] - centre_mm[0], p[1] - centre_mm[1]);
+        let (x, y) = (p[0] - about[0], p[1] - about[1]);
         (y.atan2(x), x.hypot(y) - radius)
     };
     let all = || {
@@ -125,7 +126,7 @@ pub(super) fn separate(
     }
     let ellipse = 2.0 * x[5];
     Some(Causes {
-        centre_mm: [x[2], x[3]],
+        centre_mm: [0, 1].map(|i| about[i] - centre_mm[i] + x[2 + i]),
         backlash_mm: [x[7], x[8]],
         scale_mismatch_mm: 4.0 * x[4],
         squareness_rad: both.then_some(2.0 * x[5] / radius),

@@ -119,7 +119,10 @@ impl Diagnosis {
 /// The numbers of a circle that the rows need.
 struct Setting {
     radius_mm: f64,
+    /// The centre as commanded: where on the axes the circle lies.
     centre_mm: [f64; 2],
+    /// The centre of the points: radii and angles are taken about it.
+    about_mm: [f64; 2],
     pitch_mm: [Option<f64>; 2],
 }
 
@@ -252,7 +255,8 @@ struct Fitted {
 impl Fitted {
     fn of(circle: &Circular, radius_mm: f64, conditions: &Conditions) -> Option<Self> {
         let (pitch_mm, centre_mm) = (conditions.circle.pitch_mm, circle.centre_mm);
-        let setting = Setting { radius_mm, centre_mm, pitch_mm };
+        let about_mm = circle.points_centre_mm();
+        let setting = Setting { radius_mm, centre_mm, about_mm, pitch_mm };
         let points = points(&circle.paths, &setting);
         let doubtful = doubtful_rad(&circle.paths);
         let counts = |p: &&Point| p.after > SPIKE_WINDOW_RAD && p.after <= FRAC_PI_2 - doubtful;
@@ -366,7 +370,7 @@ fn points(paths: &[PathResult], setting: &Setting) -> Vec<Point> {
     let mut all = Vec::new();
     for (path, result) in paths.iter().enumerate() {
         for p in &result.path.points_mm {
-            let (x, y) = (p[0] - setting.centre_mm[0], p[1] - setting.centre_mm[1]);
+            let (x, y) = (p[0] - setting.about_mm[0], p[1] - setting.about_mm[1]);
             let (angle, sense) = (y.atan2(x), result.path.sense);
             let (after, quarter) = after_reversal(angle, sense);
             let radial = x.hypot(y) - setting.radius_mm;

@@ -211,38 +211,87 @@ fn split(
             _ => pieces.push((sense, i, i + 1)),
         }
     }
+    let turned: Vec<Turned> =
+        pieces.into_iter().map(|piece| Turned::of(piece, points, centre)).collect();
+    let any_is_whole = turned.iter().any(Turned::is_whole);
     let mut paths = Vec::new();
-    for (stated, from, to) in pieces {
-        let points = &points[from..to];
-        let mut angles = vec![0.0];
-        for pair in points.windows(2) {
-            angles.push(angles[angles.len() - 1] + turn(pair[0], pair[1], centre));
-        }
-        let swept = angles[angles.len() - 1];
-        let found = if swept < 0.0 { Sense::Clockwise } else { Sense::CounterClockwise };
-        let place = sheet.row_place(from);
-        if stated.is_some_and(|s| s != found) {
-            let message = format!("the points run {}, the table states the opposite", found.word());
+    for path in turned {
+        let place = sheet.row_place(path.from);
+        if path.stated.is_some_and(|s| s != path.found()) {
+            let message =
+                format!("the points run {}, the table states the opposite", path.found().word());
             let hint = "seen from the positive third axis; are the two axes swapped? the stated \
                         direction is used";
             problems.warn("wrong-direction", place.clone(), message, hint);
         }
-        if swept.abs() < TAU - LARGEST_GAP {
-            let message =
-                format!("only {:.1}° of a circle were recorded", swept.abs().to_degrees());
-            let hint =
-                "the results hold for this arc; the centre may be wrong (or [circle] centre)";
+        if !path.is_whole() {
+            let degrees = path.swept().abs().to_degrees();
+            let message = format!("only {degrees:.1}° of a circle were recorded");
+            let hint = match any_is_whole {
+                true => "this path is in no result: there are whole ones",
+                false => {
+                    "the results hold for this arc; the centre may be wrong (or [circle] centre)"
+                }
+            };
             problems.warn("partial-circle", place, message, hint);
         }
-        let overlap_rad = (swept.abs() - TAU).max(0.0);
-        let (begin, end) = (0.5 * overlap_rad, swept.abs() - 0.5 * overlap_rad);
-        // A rounding must not cost the first or the last point.
-        let inside = |a: &f64| (begin - 1e-9..=end + 1e-9).contains(&a.abs());
-        let kept = points.iter().zip(&angles).filter(|(_, a)| overlap_rad <= 0.0 || inside(a));
-        let points_mm = kept.map(|(p, _)| *p).collect();
-        paths.push(Path { sense: stated.unwrap_or(found), points_mm, overlap_rad });
+        if path.is_whole() || !any_is_whole {
+            path.turns(points, &mut paths);
+        }
     }
     paths
+}
+
+/// Neighbouring rows of one direction.
+struct Turned {
+    stated: Option<Sense>,
+    from: usize,
+    /// How far the points have turned from the first one, rad.
+    angles: Vec<f64>,
+}
+
+impl Turned {
+    fn of(
+        (stated, from, to): (Option<Sense>, usize, usize),
+        points: &[[f64; 2]],
+        centre: [f64; 2],
+    ) -> Self {
+        let mut angles = vec![0.0];
+        for pair in points[from..to].windows(2) {
+            angles.push(angles[angles.len() - 1] + turn(pair[0], pair[1], centre));
+        }
+        Self { stated, from, angles }
+    }
+
+    fn swept(&self) -> f64 {
+        self.angles.last().copied().unwrap_or(0.0)
+    }
+
+    fn found(&self) -> Sense {
+        if self.swept() < 0.0 { Sense::Clockwise } else { Sense::CounterClockwise }
+    }
+
+    fn is_whole(&self) -> bool {
+        self.swept().abs() >= TAU - LARGEST_GAP
+    }
+
+    /// Each whole turn is a path; what was recorded beyond them is left out, half at each end.
+    fn turns(&self, points: &[[f64; 2]], paths: &mut Vec<Path>) {
+        let swept = self.swept().abs();
+        let count = ((swept + LARGEST_GAP) / TAU).floor().max(1.0);
+        let overlap_rad = (swept - count * TAU).max(0.0);
+        let sense = self.stated.unwrap_or(self.found());
+        let points = &points[self.from..self.from + self.angles.len()];
+        for turn in 0..count as usize {
+            let begin = 0.5 * overlap_rad + turn as f64 * TAU;
+            let end = if count > 1.0 { begin + TAU } else { swept - 0.5 * overlap_rad };
+            // A rounding must not cost the first or the last point.
+            let inside = |a: &f64| (begin - 1e-9..=end + 1e-9).contains(&a.abs());
+            let all_count = count <= 1.0 && overlap_rad <= 0.0;
+            let kept = points.iter().zip(&self.angles).filter(|(_, a)| all_count || inside(a));
+            paths.push(Path { sense, points_mm: kept.map(|(p, _)| *p).collect(), overlap_rad });
+        }
+    }
 }
 
 #[cfg(test)]

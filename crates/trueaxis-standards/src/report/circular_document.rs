@@ -8,7 +8,7 @@ use trueaxis_report::Keyed;
 
 const UM: f64 = 1e3;
 
-/// A circular test by ISO 230-4. For each sense (`ccw`, `cw`) there are `G_ccw_um`, `F_ccw_max_um` and
+/// A circular test by ISO 230-4. For each sense (`ccw`, `cw`), the worst of its paths, there are `G_ccw_um`, `F_ccw_max_um` and
 /// `F_ccw_min_um`, then the same over all paths: `G_um`, `G_b_um`, `F_max_um`, `F_min_um` and `D_um`.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct CircularEntry<'a> {
@@ -93,18 +93,17 @@ impl<'a> From<&'a Circular> for CircularEntry<'a> {
     fn from(c: &'a Circular) -> Self {
         let mut deviations = Vec::new();
         let mut put = |key: String, mm: Option<f64>| deviations.push((key, mm.map(|v| v * UM)));
-        for p in &c.paths {
-            let sense = p.path.sense.word();
-            put(format!("G_{sense}_um"), Some(p.g_mm));
-            put(format!("F_{sense}_max_um"), p.f_mm.map(|f| f[0]));
-            put(format!("F_{sense}_min_um"), p.f_mm.map(|f| f[1]));
+        for sense in c.senses() {
+            let (word, worst) = (sense.word(), c.worst(Some(sense)));
+            put(format!("G_{word}_um"), worst.map(|w| w.g_mm));
+            put(format!("F_{word}_max_um"), worst.and_then(|w| w.f_mm).map(|f| f[0]));
+            put(format!("F_{word}_min_um"), worst.and_then(|w| w.f_mm).map(|f| f[1]));
         }
-        let of_all = c.paths.iter().filter_map(|p| p.f_mm);
-        let of_all = of_all.reduce(|a, b| [a[0].max(b[0]), a[1].min(b[1])]);
-        put("G_um".to_owned(), c.paths.iter().map(|p| p.g_mm).reduce(f64::max));
+        let worst = c.worst(None);
+        put("G_um".to_owned(), worst.map(|w| w.g_mm));
         put("G_b_um".to_owned(), c.g_both_mm);
-        put("F_max_um".to_owned(), of_all.map(|f| f[0]));
-        put("F_min_um".to_owned(), of_all.map(|f| f[1]));
+        put("F_max_um".to_owned(), worst.and_then(|w| w.f_mm).map(|f| f[0]));
+        put("F_min_um".to_owned(), worst.and_then(|w| w.f_mm).map(|f| f[1]));
         put("D_um".to_owned(), c.d_mm);
         Self {
             axes: &c.axes,

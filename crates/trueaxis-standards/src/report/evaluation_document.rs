@@ -140,7 +140,8 @@ pub struct DriftEntry<'a> {
     pub channels: Vec<ChannelEntry<'a>>,
 }
 
-/// One channel: `range`, `first_window`, `largest_window` and `end`, each with the unit `_um`, `_urad` or `_degC`.
+/// One channel: `range`, `first_window`, `largest_window`, `largest_window_at_most` (if it changes within gaps of the record at the worst
+/// moment) and `end`, each with the unit `_um`, `_urad` or `_degC`.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct ChannelEntry<'a> {
     /// Its name.
@@ -367,6 +368,7 @@ impl<'a> From<&'a Channel> for ChannelEntry<'a> {
             ("range", c.range),
             ("first_window", c.first_window),
             ("largest_window", c.largest_window.0),
+            ("largest_window_at_most", c.at_most[1]),
             ("end", c.end),
         ];
         let ranges = ranges.map(|(key, value)| (format!("{key}_{unit}"), value * scale));

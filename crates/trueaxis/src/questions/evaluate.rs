@@ -15,7 +15,9 @@ use trueaxis_machine::file::Folder;
 use trueaxis_report::Report;
 use trueaxis_standards::conditions::{Conditions, read_conditions};
 use trueaxis_standards::import::Import;
-use trueaxis_standards::judge::{Decision, Judged, figures, judge, overall, tolerances};
+use trueaxis_standards::judge::{
+    Decision, Judged, ToleranceFile, figures, judge, overall, tolerances,
+};
 use trueaxis_standards::report::Evaluation;
 use trueaxis_standards::{Evaluated, Readings, Standard, evaluate_text, iso230_3};
 
@@ -196,6 +198,7 @@ impl Evaluate {
             return None;
         };
         let axis = &machine.axes()[*axis];
+        other_axis(machine, &axis.name.to_string(), conditions, problems)?;
         let back = write_back(axis, result, conditions, &input.name, problems)?;
         let stem = self.path().file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let name = format!("{stem}-{}.csv", back.error);
@@ -348,8 +351,9 @@ impl Question for Evaluate {
         let (machine_errors, machine_files) =
             found.map_or((None, Vec::new()), |(f, n)| (Some(f), n));
         let (file, axis) = (self.tolerance_file.as_deref(), conditions.axis.as_deref());
-        let tolerances = tolerances(&self.tolerances, file, &input.files, axis, problems);
         let figures = figures(&evaluated, &conditions);
+        let of = ToleranceFile { path: file, files: &input.files, axis, figures: &figures };
+        let tolerances = tolerances(&self.tolerances, &of, problems);
         let judged = judge(&figures, &tolerances, !self.is_simple, problems);
         let remarks = report::remarks(problems);
         let (name, conditions_file) = (std::mem::take(&mut input.name), input.conditions_file);
@@ -367,6 +371,26 @@ impl Question for Evaluate {
             machine_files,
         })
     }
+}
+
+/// Readings of one axis are not written to another.
+fn other_axis(
+    machine: &Machine,
+    wanted: &str,
+    conditions: &Conditions,
+    problems: &mut Diagnostics,
+) -> Option<()> {
+    // `X`, `x-axis`, `X, upper slide`: the letter is one of the words.
+    let stated = conditions.axis.as_deref().unwrap_or("");
+    let words = || stated.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty());
+    let is_wanted = words().any(|w| w.eq_ignore_ascii_case(wanted));
+    let other = words().find(|w| axis_index(machine, &w.to_uppercase()).is_some());
+    let Some(other) = other.filter(|_| !is_wanted) else { return Some(()) };
+    let message = format!("the readings are of axis {other} by their conditions, not of {wanted}");
+    let hint =
+        format!("--write-back MACHINE.toml {other}; or correct `axis` in the conditions file");
+    problems.error("wrong-axis", Place::whole("--write-back"), message, &hint);
+    None
 }
 
 /// A positive quantity of an argument.

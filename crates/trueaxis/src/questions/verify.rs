@@ -4,7 +4,9 @@ use super::{Answer, Question, Tell, with_diagnostics};
 use crate::report::{self, CalibrationsReport};
 use crate::verify::calibrations::{Calibrations, TwoTemperatures, calibrations};
 use crate::verify::certificate::{Certificate, PoseFault, Study, certify, read_certificate};
-use crate::verify::compare::{Comparison, ComparisonResult, compare, read_comparison};
+use crate::verify::compare::{
+    Comparison, ComparisonResult, LEAST_REDUNDANCY, compare, read_comparison,
+};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use trueaxis_input::{Diagnostics, Files, Place};
@@ -45,7 +47,18 @@ impl Question for VerifyReadings {
         problems: &mut Diagnostics,
     ) -> Option<VerifyAnswer> {
         match compare(&task) {
-            Ok(verified) => Some(VerifyAnswer { task, verified }),
+            Ok(verified) => {
+                if verified.redundancy < LEAST_REDUNDANCY {
+                    let message = format!(
+                        "{} numbers cannot carry the set-up of the instruments, which is fitted to them, and a comparison",
+                        verified.deviations.len()
+                    );
+                    let hint =
+                        "they agree with any machine: measure at more poses, or state the set-up";
+                    problems.warn("too-few-readings", whole(&self.file), message, hint);
+                }
+                Some(VerifyAnswer { task, verified })
+            }
             Err(error) => {
                 let hint =
                     "do the readings belong to this campaign: columns, units, order of channels?";
@@ -180,7 +193,10 @@ impl Question for Certify {
         problems: &mut Diagnostics,
     ) -> Option<CertificateAnswer> {
         match certify(&study) {
-            Ok(certificate) => Some(CertificateAnswer { study, certificate }),
+            Ok(certificate) => {
+                remark(&study, &certificate, &self.study, problems);
+                Some(CertificateAnswer { study, certificate })
+            }
             Err(PoseFault { place, fault }) => {
                 let place = place.unwrap_or_else(|| whole(&self.study));
                 let hint = "leave the pose out, or extend the tables of the machine file";
@@ -188,6 +204,31 @@ impl Question for Certify {
                 None
             }
         }
+    }
+}
+
+/// What the verdict about the poses does not show.
+fn remark(study: &Study, found: &Certificate, path: &Path, problems: &mut Diagnostics) {
+    let barely: Vec<String> = study
+        .barely_reached()
+        .iter()
+        .map(|(name, share)| format!("{name} {:.0} %", share * 100.0))
+        .collect();
+    if !barely.is_empty() {
+        let message = format!(
+            "the poses of the validation cover only a part of the zone: {}",
+            barely.join(", ")
+        );
+        let hint = "validate over the zone, or state the smaller one in [zone]";
+        problems.warn("zone-not-covered", whole(path), message, hint);
+    }
+    if let Some(before) = found.agreement[0].filter(|a| !a.holds()) {
+        let message = format!(
+            "the readings before the compensation are not as predicted: χ² = {:.1}, at most {:.1} once in a hundred",
+            before.chi_square, before.limit
+        );
+        let hint = "the machine was not the identified one, or it was measured with a compensation switched on";
+        problems.warn("not-as-predicted", whole(path), message, hint);
     }
 }
 

@@ -207,7 +207,9 @@ fn curve(
     let measured = readings(study, measurement, path, (axis, sign));
     let length = measured.length();
     let budget = Budget { length, shares: shares(instrument, length), drift_u: drift_u(study, of) };
-    let result = iso230_2::evaluate(&measured, Some(budget));
+    // Without any contribution U is not 0 but not known.
+    let is_known = budget.drift_u.is_some() || !budget.shares.is_empty();
+    let result = iso230_2::evaluate(&measured, is_known.then_some(budget));
     let at_target = |target_mm: f64| {
         let mut command = stations.stations.commands.first().copied().unwrap_or_default();
         command[axis] = target_mm;
@@ -280,11 +282,11 @@ fn shares(laser: &Instrument, length_mm: f64) -> Vec<Share> {
     ]
 }
 
-/// The drift of a virtual laser is known: anywhere within what it comes to in the whole time.
+/// The drift of a virtual laser is known, if it has one: anywhere within what it comes to in the whole time.
 fn drift_u(study: &BeforeAfter, laser: usize) -> Option<f64> {
     let per_hour = study.real.disturb.drift_per_hour[laser][0].abs();
     let whole_s: f64 = study.real.paths.iter().map(|p| p.stations.len() as f64 * p.dwell_s).sum();
-    Some(per_hour * whole_s / 3600.0 / 12f64.sqrt())
+    (per_hour > 0.0).then(|| per_hour * whole_s / 3600.0 / 12f64.sqrt())
 }
 
 /// Of the means of all targets and directions the one that is farthest from 0.

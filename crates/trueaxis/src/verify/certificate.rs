@@ -36,9 +36,10 @@ pub use validation::{MeasuredValue, Validation};
 
 use residual::Residual;
 use spread::{Lengths, lengths};
+use std::f64::consts::TAU;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::Place;
-use trueaxis_machine::axis::{Approach, Command};
+use trueaxis_machine::axis::{Approach, Axis, AxisKind, Command, Travel};
 use trueaxis_machine::compensate::Fault;
 use trueaxis_machine::volume::commands;
 use trueaxis_part::tolerance::Outcome;
@@ -135,6 +136,38 @@ pub struct PoseFault {
     pub place: Option<Place>,
     /// Why.
     pub fault: Fault,
+}
+
+/// An axis is validated over a part of its zone that is less than this: that is remarked on. Unit: 1.
+const HALF: f64 = 0.5;
+
+impl Study {
+    /// How much of the zone of each axis the poses of the validation reach over; an axis without a zone is not there.
+    fn reached(&self) -> Vec<(String, f64)> {
+        let share = |(i, axis): (usize, &Axis)| {
+            let Travel::Between(from, to) = axis.travel else { return None };
+            let at = self.validation.poses.iter().map(|p| p.command[i]);
+            let (low, high) = (at.clone().reduce(f64::min)?, at.reduce(f64::max)?);
+            // Beyond a whole turn a rotary axis stands as before.
+            let turn = if axis.kind == AxisKind::Rotary { TAU } else { f64::INFINITY };
+            (to > from).then(|| (axis.name.to_string(), (high - low) / (to - from).min(turn)))
+        };
+        self.zone.iter().enumerate().filter_map(share).collect()
+    }
+
+    /// The axes with a zone that stand at one position in all poses.
+    fn axes_at_rest(&self) -> Vec<String> {
+        self.reached()
+            .into_iter()
+            .filter(|(_, share)| *share <= 0.0)
+            .map(|(name, _)| name)
+            .collect()
+    }
+
+    /// The axes of whose zone less than half is validated, each with its part.
+    pub fn barely_reached(&self) -> Vec<(String, f64)> {
+        self.reached().into_iter().filter(|(_, share)| *share < HALF).collect()
+    }
 }
 
 /// Evaluates the readings of a study.
@@ -269,6 +302,14 @@ fn verdict(
     }
     if open > 0 {
         let why = format!("{open} of {all} poses are nearer to {limit} than U = {expanded}");
+        return (Outcome::Undecided, why);
+    }
+    let still = study.axes_at_rest();
+    if !still.is_empty() {
+        let why = format!(
+            "all {all} poses are within {limit}, but at one position of {}: nothing is known about the rest of the zone",
+            still.join(" ")
+        );
         return (Outcome::Undecided, why);
     }
     if !agreement.is_some_and(|a| a.holds()) {

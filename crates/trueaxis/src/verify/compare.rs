@@ -36,6 +36,11 @@ use trueaxis_part::tolerance::Outcome;
 /// Quantile of the normal distribution for 95 %, two-sided.
 const NORMAL_95: f64 = 1.959_963_985;
 
+/// So many numbers beyond those that the fitted set-up takes compare something. Unit: 1.
+pub const LEAST_REDUNDANCY: f64 = 0.5;
+/// Of a number of which the fitted set-up leaves less than this part, nothing is compared. Unit: 1.
+const ABSORBED: f64 = 1e-6;
+
 /// A comparison to be made.
 #[derive(Debug, Clone)]
 pub struct Comparison {
@@ -94,6 +99,9 @@ pub struct Deviation {
     pub value: f64,
     /// U = k·u. Unit: mm or rad.
     pub expanded: f64,
+    /// What the fitted set-up leaves of it: 1 of a number that it does not depend on, 0 of one that it is made of.
+    /// Unit: 1.
+    pub redundancy: f64,
 }
 
 impl Deviation {
@@ -179,6 +187,8 @@ pub struct ComparisonResult {
     pub counts: [usize; 3],
     /// What the readings make of what is stated of the set-up.
     pub set_up: Vec<SetUpDeviation>,
+    /// How many numbers are left to compare when the set-up is fitted. Unit: 1.
+    pub redundancy: f64,
     /// The verdict.
     pub outcome: Outcome,
 }
@@ -209,9 +219,10 @@ pub fn compare(task: &Comparison) -> Result<ComparisonResult, FitError> {
     let mut deviations = Vec::new();
     for (row, (residual, u)) in after.residuals.iter().zip(&spread.u).enumerate() {
         let of = readings.instruments[row] as usize;
-        let channels = task.campaign.instruments[of].sight.channels();
-        for (channel, (value, u)) in residual.iter().zip(u).enumerate().take(channels) {
-            deviations.push(Deviation { row, channel, value: *value, expanded: k * u });
+        for channel in 0..task.campaign.instruments[of].sight.channels() {
+            let (value, expanded) = (residual[channel], k * u[channel]);
+            let redundancy = spread.redundancy[row][channel];
+            deviations.push(Deviation { row, channel, value, expanded, redundancy });
         }
     }
     let before = before.map(|b| b.residuals);
@@ -266,23 +277,39 @@ impl ComparisonResult {
             }] += 1;
         }
         let set_up = judged.set_up.clone();
+        let redundancy: f64 = deviations.iter().map(|d| d.redundancy).sum();
         let outcome = match (task.decision.rule, counts) {
             _ if deviations.is_empty() => Outcome::Undecided,
             // What agrees only with another set-up than the stated one does not agree.
             _ if set_up.iter().any(SetUpDeviation::is_contradicted) => Outcome::Fail,
+            // Numbers that the set-up was fitted to agree with any machine.
+            _ if redundancy < LEAST_REDUNDANCY => Outcome::Undecided,
             (Rule::Coverage, _) if coverage.is_enough() => Outcome::Pass,
             (Rule::Coverage, _) => Outcome::Fail,
             (_, [_, 0, 0]) => Outcome::Pass,
             (_, [_, 0, _]) => Outcome::Undecided,
             _ => Outcome::Fail,
         };
-        Self { readings, deviations, coverage, instruments, places, counts, set_up, outcome }
+        Self {
+            readings,
+            deviations,
+            coverage,
+            instruments,
+            places,
+            counts,
+            set_up,
+            redundancy,
+            outcome,
+        }
     }
 }
 
 fn judge(decision: &Decision, of: usize, deviation: &Deviation) -> Outcome {
     let (size, expanded) = (deviation.value.abs(), deviation.expanded);
     let tolerance = decision.tolerance.get(of).copied().flatten();
+    if deviation.redundancy < ABSORBED {
+        return Outcome::Undecided;
+    }
     match (decision.rule, tolerance) {
         (Rule::Simple, Some(t)) if size <= t => Outcome::Pass,
         (Rule::GuardBand, Some(t)) if size + expanded <= t => Outcome::Pass,
@@ -401,6 +428,7 @@ impl Fitted {
         // The effect of each uncertain quantity on the fitted set-up.
         let taken = &self.covariance * stated.pull(readings, &[]);
         let mut found = vec![[0.0; 3]; readings.len()];
+        let mut redundancy = vec![[1.0; 3]; readings.len()];
         let q = stated.names().len();
         // GᵀG of the shares g = s/u of the quantities, and Σ|g|⁴: Σ ρ² over all pairs of numbers.
         let (mut gram, mut own, mut count) = (DMatrix::<f64>::zeros(q, q), 0.0, 0.0);
@@ -410,7 +438,8 @@ impl Fitted {
                 let fitted = number.slopes.dot(&(&self.covariance * &number.slopes));
                 let left = &number.stated - taken.tr_mul(&number.slopes);
                 // What is used up by the fit cannot be more than there is.
-                let noise = (noise[c] * noise[c] - fitted).max(0.0);
+                let (all, noise) = (noise[c] * noise[c], (noise[c] * noise[c] - fitted).max(0.0));
+                redundancy[row][c] = if all > 0.0 { noise / all } else { 1.0 };
                 found[c] = (noise + left.norm_squared()).sqrt();
                 let share = if found[c] > 0.0 { left / found[c] } else { left };
                 gram.ger(1.0, &share, &share, 1.0);
@@ -420,7 +449,8 @@ impl Fitted {
         }
         let pairs = (gram.norm_squared() - own).max(0.0);
         let set_up = set_up::deviations(&self.instruments, &self.values, &self.covariance, &taken);
-        Spread { u: found, independent: 1.0 / (1.0 + pairs / f64::max(count, 1.0)), set_up }
+        let independent = 1.0 / (1.0 + pairs / f64::max(count, 1.0));
+        Spread { u: found, redundancy, independent, set_up }
     }
 }
 
@@ -428,6 +458,8 @@ impl Fitted {
 struct Spread {
     /// Of each, mm or rad.
     u: Vec<[f64; 3]>,
+    /// What the set-up leaves of each. Unit: 1.
+    redundancy: Vec<[f64; 3]>,
     /// The equivalent share of independent ones.
     independent: f64,
     set_up: Vec<SetUpDeviation>,
@@ -447,8 +479,13 @@ mod tests {
     fn a_guard_band_leaves_the_edge_undecided() {
         let decision =
             Decision { rule: Rule::GuardBand, coverage_factor: 2.0, tolerance: vec![Some(10.0)] };
-        let judged =
-            |value| judge(&decision, 0, &Deviation { row: 0, channel: 0, value, expanded: 2.0 });
+        let judged = |value| {
+            judge(
+                &decision,
+                0,
+                &Deviation { row: 0, channel: 0, value, expanded: 2.0, redundancy: 1.0 },
+            )
+        };
         assert_eq!(judged(8.0), Outcome::Pass);
         assert_eq!(judged(-9.0), Outcome::Undecided);
         assert_eq!(judged(12.5), Outcome::Fail);
@@ -462,6 +499,7 @@ mod tests {
             channel: 0,
             value: if k < 95 { 0.0 } else { 3.0 },
             expanded: 1.0,
+            redundancy: 1.0,
         };
         let some: Vec<Deviation> = (0..100).map(deviation).collect();
         let alone = Judged { k: 2.0, independent: 1.0, before: None, set_up: Vec::new() };

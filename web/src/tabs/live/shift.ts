@@ -64,7 +64,7 @@ export class Shift {
     const specs = new Map<string, TimePlotSpec>();
     for (const axis of history.axes) {
       const unit = unitOf(axis.unit);
-      const one = (value: number): string => number(value, 1);
+      const one = (value: number | null): string => (value === null ? "–" : number(value, 1));
       specs.set(axis.axis, {
         title: tr`${axis.axis}: off by the model, before ${one(axis.before_max)} at most, ${one(axis.before_rms)} rms; after ${one(axis.left_max)} at most, ${one(axis.left_rms)} rms`,
         unit,

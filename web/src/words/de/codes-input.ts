@@ -160,6 +160,7 @@ export const codes: Dictionary = {
   "live-node": "OPC-UA-Knoten oder Modus unzulässig",
   "live-line": "Achse nicht über Kennlinie korrigierbar",
   "live-no-forecast": "Vorhersage des Tagesverlaufs nicht möglich",
+  "live-range": "Messwerte außerhalb des Bereichs eines Sensors",
   "bad-duration": "Zeitangabe unzulässig",
   "array-shape": "Falsche Zeilen- oder Spaltenzahl",
   "array-type": "Feld enthält nicht nur Zahlen",

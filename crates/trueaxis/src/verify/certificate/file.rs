@@ -10,6 +10,7 @@ use super::validation::{AllowedPoses, Validation, read_validation};
 use super::{UncertaintySource, identified};
 use std::path::Path;
 use trueaxis_condition::certificate_head::{CertificateHead, read_head};
+use trueaxis_condition::date::Date;
 use trueaxis_correct::compensate::not_twice;
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, MeasuredValue, Section, SourceText};
 use trueaxis_machine::Machine;
@@ -148,8 +149,9 @@ fn read(root: &Section<'_>, folder: &Path, mut inputs: Inputs) -> Option<Study> 
     let allowed = AllowedPoses { used: used.unwrap_or(&[]), zone: zone.as_deref().unwrap_or(&[]) };
     let validation =
         validation.section("validation", |s| read_validation(s, &machine, &allowed, &mut inputs));
-    let found = determined.flatten()?;
+    let (found, validation) = (determined.flatten()?, validation.flatten()?);
     let (applied, application) = compensation.flatten()?;
+    check_order(root, &found.circumstances, &application, &validation);
     Some(Study {
         name: name?.to_owned(),
         head,
@@ -160,12 +162,32 @@ fn read(root: &Section<'_>, folder: &Path, mut inputs: Inputs) -> Option<Study> 
         applied,
         application,
         zone: zone?,
-        validation: validation.flatten()?,
+        validation,
         decision: decision?,
         sampling: sampling?,
         inputs: inputs.finish(),
         machine,
     })
+}
+
+/// Readings of a machine whose compensation was not there yet validate nothing.
+fn check_order(
+    root: &Section<'_>,
+    determination: &Circumstances,
+    application: &Application,
+    validation: &Validation,
+) {
+    let determined = ("the errors were determined", determination.date.as_str());
+    let applied = application.date.as_deref().map(|date| ("the compensation was applied", date));
+    let validated = &validation.circumstances.date;
+    let Some(after) = Date::parse(validated) else { return };
+    for (what, date) in std::iter::once(determined).chain(applied) {
+        if Date::parse(date).is_some_and(|before| after < before) {
+            let message = format!("the validation is of {validated}, {what} on {date}");
+            let hint = "the readings `after` are those with the compensation that is certified: correct one `date`";
+            root.error("bad-date", message, hint);
+        }
+    }
 }
 
 /// Reads `[zone]`: `A = ["-30 deg", "30 deg"]`; axes that are not named have their whole travel.

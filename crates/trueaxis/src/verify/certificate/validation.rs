@@ -9,7 +9,7 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Axis, Command};
 use trueaxis_machine::twist::Reference;
 use trueaxis_measure::instruments::instrument::Instrument;
-use trueaxis_measure::measure::{Kind, Readings};
+use trueaxis_measure::measure::{Kind, Readings, without_copies};
 
 /// Commands that differ by less are the same row of both tables, mm and rad.
 const SAME: f64 = 1e-9;
@@ -95,7 +95,13 @@ pub fn read_validation(
 struct Rows {
     readings: Readings,
     deviations_mm: Vec<Vec3>,
-    table: CsvTable,
+    file: String,
+}
+
+impl Rows {
+    fn place(&self, row: usize) -> Place {
+        Place { line: self.readings.lines[row] as usize, ..Place::whole(&self.file) }
+    }
 }
 
 fn rows(
@@ -119,12 +125,13 @@ fn rows(
     let place = tip_in_workpiece(machine);
     let readings = Readings::parse(&table, machine, &place, 0, problems)?;
     readings.judge(&table, (machine, &place), &inputs.limits, problems);
+    let readings = without_copies(&readings, &table, problems);
     let deviation = |i: usize| {
         let read = Vec3::from(readings.values[i]);
         read - Vec3::from(place.nominal_reading(machine, &readings.commands[i], Vec3::x()))
     };
     let deviations_mm = (0..readings.len()).map(deviation).collect();
-    Some(Rows { readings, deviations_mm, table })
+    Some(Rows { readings, deviations_mm, file: table.file })
 }
 
 /// An instrument that reads the position of the tip in the workpiece frame.
@@ -159,11 +166,11 @@ fn pairs(before: Rows, after: Rows, problems: &mut Diagnostics) -> Vec<MeasuredV
     let mut poses = Vec::new();
     let mut taken = vec![false; before.readings.len()];
     for i in 0..after.readings.len() {
-        let place = after.table.row_place(i);
+        let place = after.place(i);
         let partner = (0..taken.len())
             .find(|k| !taken[*k] && is_same(&after.readings, i, &before.readings, *k));
         let Some(k) = partner else {
-            let message = format!("this pose is not (again) among those of {}", before.table.file);
+            let message = format!("this pose is not (again) among those of {}", before.file);
             problems.error("unpaired-pose", place, message, hint);
             continue;
         };
@@ -177,8 +184,8 @@ fn pairs(before: Rows, after: Rows, problems: &mut Diagnostics) -> Vec<MeasuredV
         });
     }
     for k in (0..taken.len()).filter(|k| !taken[*k]) {
-        let message = format!("this pose is not among those of {}", after.table.file);
-        problems.error("unpaired-pose", before.table.row_place(k), message, hint);
+        let message = format!("this pose is not among those of {}", after.file);
+        problems.error("unpaired-pose", before.place(k), message, hint);
     }
     poses
 }
