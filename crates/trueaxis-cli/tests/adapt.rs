@@ -230,6 +230,29 @@ fn tables_with_slips() {
     reported("twice", &twice, 1, "rough-readings", "scatter");
 }
 
+/// The rows of the table in another order, and each of them twice: the same path, byte for byte.
+#[test]
+fn law_order_and_copies_of_rows_do_not_matter() {
+    let whole = parts().with_study("length = \"20 mm\"\n", "");
+    let (head, rows): (Vec<&str>, Vec<&str>) =
+        whole.measured.lines().partition(|l| l.starts_with(['#', 'p']));
+    let table = |rows: &[&str]| head.join("\n") + "\n" + &rows.join("\n") + "\n";
+    let adapted = |name: &str, rows: &[&str]| {
+        let parts = Parts { measured: table(rows), ..whole.clone() };
+        let folder = Folder::new(&format!("adapt-{name}-cl"));
+        let cl = folder.path("adapted.cls");
+        let (_folder, ran) = parts.run(name, &["--cl", &cl]);
+        assert_eq!(ran.status, 0, "{name}\n{}", ran.err);
+        (std::fs::read_to_string(&cl).expect("the path"), ran.err.matches("[copied-rows]").count())
+    };
+    let reversed: Vec<&str> = rows.iter().rev().copied().collect();
+    let twice: Vec<&str> = rows.iter().flat_map(|row| [*row, *row]).collect();
+    let (path, none) = adapted("rows", &rows);
+    assert_eq!(none, 0);
+    assert!(adapted("reversed", &reversed) == (path.clone(), 0));
+    assert!(adapted("each-twice", &twice) == (path, 4));
+}
+
 #[test]
 fn paths_with_slips() {
     let whole = parts();
@@ -258,6 +281,14 @@ fn studies_with_slips() {
         2,
         "layer-too-deep",
         "-0.06",
+    );
+    // A wall of less than nothing is a hole.
+    reported(
+        "least",
+        &study("least = \"0.05 mm\"", "least = \"-1 mm\""),
+        2,
+        "not-positive",
+        "it is negative",
     );
     reported(
         "noise",

@@ -162,6 +162,26 @@ fn spoiled_positions_are_named_with_their_line() {
     reported("nothing", "", 2, "empty-table", "", "no row");
 }
 
+/// Hits that lie 0.05 mm nearer than those of a sound probe: it would trigger before it touches. What is stated without its
+/// uncertainty is said to count as exact.
+#[test]
+fn a_probe_that_triggers_too_early_is_named() {
+    let folder = Folder::new("probe-early");
+    let told = |by: f64| {
+        let row = |_: usize, a: f64, x: f64, y: f64| {
+            let (s, c) = a.to_radians().sin_cos();
+            Some(format!("{a},{:.6},{:.6}", x - by * c, y - by * s))
+        };
+        folder.file("h.csv", ring(HEADING, row));
+        let file = folder.file("s.toml", study(""));
+        let ran = trueaxis(&["identify", "probe", &file]);
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        assert!(ran.err.contains("note[no-uncertainty]"), "{}", ran.err);
+        ran.err.contains("the mean pre-travel is -30.00") && ran.err.contains("warning[wrong-size]")
+    };
+    assert!(told(0.05) && !told(0.0));
+}
+
 #[test]
 fn swapped_x_and_y_are_seen_by_their_directions() {
     let folder = Folder::new("probe-swapped");

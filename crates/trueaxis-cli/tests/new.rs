@@ -90,6 +90,11 @@ fn what_is_there_is_left_alone() {
     assert_eq!(ran.status, 2);
     assert!(ran.err.contains("cannot contain"), "{}", ran.err);
     assert!(!std::path::Path::new(&temporary.path("m")).exists());
+    // Its hint names nothing that the command does not have.
+    let ran = trueaxis(&["new", &temporary.path("nowhere/m")]);
+    assert_eq!(ran.status, 2);
+    assert!(ran.err.contains("its folder does not exist"), "{}", ran.err);
+    assert!(!ran.err.contains("--output"), "{}", ran.err);
     let ran = trueaxis(&["new", &file]);
     assert_eq!(ran.status, 2);
     assert!(ran.err.contains("error[unwritable-folder]"), "{}", ran.err);

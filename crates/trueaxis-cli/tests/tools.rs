@@ -220,6 +220,13 @@ fn spoilt_setters_and_logs() {
         "bad-tool",
         "no calibrated length",
     );
+    planned(&changed("\"2026-11-02\"", "\"foo\""), &[], "bad-date", "`foo` is not a date");
+    let lines = folder.path("foo.toml");
+    let ran =
+        trueaxis(&["identify", "tools", MACHINE, SETUP, LOG, "-o", &lines, "--date", "2026-02-30"]);
+    assert_eq!(ran.status, 2, "{}", ran.out);
+    assert!(ran.err.contains("[bad-date]") && ran.err.contains("--date"), "{}", ran.err);
+    assert!(!std::path::Path::new(&lines).exists());
     planned(
         &changed("feed = \"50 mm/min\"", "feed = \"-50 mm/min\""),
         &[],

@@ -4,9 +4,10 @@ use std::f64::consts::TAU;
 use trueaxis_cl::{ClFile, Reading};
 use trueaxis_correct::compensate::adapt::{
     AdaptStudy, Bounds, Cutter, Field, FieldOptions, Follow, Inner, NominalSurface, PathAt,
-    SurfacePoint, Wall, adapt,
+    SurfacePoint, Wall, adapt, read_points,
 };
 use trueaxis_geometry::Vec3;
+use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::NoTables;
 
@@ -162,5 +163,82 @@ fn a_wall_is_thin_by_its_expanded_uncertainty() {
         let thin = findings.iter().filter(|f| f.code == "thin-wall");
         let places: usize = thin.map(|f| f.places).sum();
         assert_eq!(places, expected, "{least_mm}: {findings:?}");
+    }
+}
+
+/// The rows of a table in any order: the same field to the last bit, also where its length is chosen on every so many of them.
+#[test]
+fn law_the_order_of_the_rows_does_not_matter() {
+    let form = |i: f64, j: f64| 0.03 * (0.7 * i + 0.1 * i * i).cos() * (1.1 * j + 0.4).sin();
+    let mut points = plane(19, 2.0, &form);
+    for (k, p) in points.iter_mut().enumerate() {
+        p.number = k as f64;
+        p.deviation_mm += 2e-3 * (1e3 * (k as f64).sin()).sin();
+    }
+    points[77].deviation_mm += 0.2;
+    let options = FieldOptions { noise_mm: 1e-3, length_mm: None, form_mm: None };
+    let of = |points: &[SurfacePoint]| {
+        let field = Field::fit(points, &options).expect("a field");
+        let outliers: Vec<f64> = field.outliers.iter().map(|o| points[o.index].number).collect();
+        let at = field.at(&Vec3::new(3.3, 4.1, 0.0), &Vec3::z());
+        let mut z: Vec<(f64, f64)> =
+            points.iter().map(|p| p.number).zip(field.left_out_z.iter().copied()).collect();
+        z.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let surface = NominalSurface::of(points).foot(&Vec3::new(3.3, 4.1, 1.0));
+        (field.covariance, outliers, at, z, surface)
+    };
+    let whole = of(&points);
+    assert_eq!(whole.1, [77.0]);
+    // 361 points; 7 and 100 have no divisor in common with them.
+    for step in [7, 100] {
+        let shuffled: Vec<SurfacePoint> = (0..361).map(|k| points[k * step % 361]).collect();
+        assert!(of(&shuffled) == whole, "every {step}th");
+    }
+}
+
+/// A table that was pasted twice is the table: its copies are named, and no point counts twice.
+#[test]
+fn law_copied_rows_count_once() {
+    let rows: Vec<String> =
+        (0..30).map(|k| format!("{k},{},{},0,0,0,1,{}.25\n", k % 6, k / 6, k * k % 11)).collect();
+    let read = |rows: &[String]| {
+        let head = "point,x_mm,y_mm,z_mm,i,j,k,deviation_um\n".to_owned();
+        let mut problems = Diagnostics::new();
+        let points = read_points("t.csv", &(head + &rows.concat()), &mut problems);
+        let told: Vec<String> =
+            problems.iter().map(|d| format!("{}:{}", d.code, d.place.line)).collect();
+        let points = points.unwrap_or_default();
+        (points.into_iter().map(|p| SurfacePoint { line: 0, ..p }).collect::<Vec<_>>(), told)
+    };
+    let (once, silent) = read(&rows);
+    assert_eq!((once.len(), silent.len()), (30, 0));
+    let (pasted, told) = read(&[&rows[..], &rows].concat());
+    assert_eq!(pasted, once);
+    assert_eq!(told, ["copied-rows:32", "copied-rows:33", "copied-rows:34", "copied-rows:0"]);
+    let each_twice: Vec<String> = rows.iter().map(|r| r.repeat(2)).collect();
+    assert_eq!(read(&each_twice).0, once);
+    // Another number, another reading.
+    let mut again = rows.clone();
+    again.push(rows[3].replacen("3,", "103,", 1));
+    assert_eq!((read(&again).0.len(), read(&again).1.len()), (31, 0));
+    // Copies make no surface of too few points.
+    assert!(
+        read(&[&rows[..6], &rows[..6], &rows[..6]].concat())
+            .1
+            .iter()
+            .any(|t| t.starts_with("too-few-points"))
+    );
+}
+
+/// A path that cuts through is never good, whatever least wall is wanted.
+#[test]
+fn a_wall_that_is_cut_through_is_never_good() {
+    for least_mm in [-1.0, 0.0, 0.01] {
+        let mut study = flat_study();
+        study.wall = Wall { thickness_mm: 0.12, u_thickness_mm: 0.0, least_mm, ..study.wall };
+        let (adaptation, problems) = adapt(&study);
+        let adaptation = adaptation.unwrap_or_else(|| panic!("{problems:?}"));
+        assert!(adaptation.map.iter().any(|cell| cell.after.wall_mm <= 0.0));
+        assert!(adaptation.findings.iter().any(|f| f.code == "thin-wall"), "least {least_mm} mm");
     }
 }

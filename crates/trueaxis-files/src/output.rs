@@ -102,7 +102,7 @@ pub fn may_fill(folder: &Path, problems: &mut Diagnostics) {
     let (message, hint) = if folder.file_name().is_none() || folder.is_file() || full {
         ("is no new or empty folder", "nothing is overwritten; name a folder that is new or empty")
     } else if !above.is_dir() {
-        ("its folder does not exist", "make that folder first, or name another --output")
+        ("its folder does not exist", "make that folder first, or name another one")
     } else {
         return;
     };

@@ -59,4 +59,4 @@ pub use draft::Draft;
 pub use files::{Files, Source};
 pub use in_order::{in_order, usual_threads};
 pub use quantity::{Dimension, MeasuredValue, QuantityError, Unit, parse_measured, parse_quantity};
-pub use section::{Item, Section, SourceText};
+pub use section::{DATE_HINT, Item, Section, SourceText, is_date};

@@ -108,7 +108,7 @@ fn law_the_scale_of_the_model_divides_it() {
     // Written with numbers twice as large, which the scale takes back; the drawing is in mm of its own.
     let text = text.replace("<ScaleCoefficient>1<", "<ScaleCoefficient>2<");
     let text = text.replace("<Factor>0.0005<", "<Factor>0.001<");
-    let pmi = "<PMILinearUnit><UnitName>half</UnitName><UnitConversion><Factor>0.0005</Factor></UnitConversion></PMILinearUnit></PrimaryUnits>";
+    let pmi = "<PMILinearUnit><SIUnitName>meter</SIUnitName><UnitName>half</UnitName><UnitConversion><Factor>0.0005</Factor></UnitConversion></PMILinearUnit></PrimaryUnits>";
     let text = text.replace("</PrimaryUnits>", pmi);
     assert_eq!(drafted(&text).0.text(), drafted(&in_mm()).0.text());
 }
@@ -427,6 +427,10 @@ fn hostile_files_are_refused_by_name() {
     refused("<QIFDocument/>", "missing-unit");
     refused(&text.replace("LinearUnit", "MassUnit"), "missing-unit");
     refused(&text.replace(">meter<", ">gram<"), "unknown-unit");
+    // Of what is a unit a multiple that says no SI unit? An inch was read as a metre.
+    refused(&text.replacen("<SIUnitName>meter</SIUnitName>", "", 1), "unknown-unit");
+    let degrees = "<AngularUnit><UnitName>degree</UnitName></AngularUnit></PrimaryUnits>";
+    refused(&text.replace("</PrimaryUnits>", degrees), "unknown-unit");
     refused(&text.replace("<Factor>0.001<", "<Factor>-1<"), "unknown-unit");
     refused(&text.replace("<Factor>0.001<", "<Factor>NaN<"), "not-a-number");
     refused(&text.replace("<UnitName>inch<", "<UnitName>mm<"), "unknown-unit");

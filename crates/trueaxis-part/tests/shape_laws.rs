@@ -371,6 +371,14 @@ fn bad_shapes_are_refused_by_name() {
             "bad-direction",
         ),
         ("width = \"12 mm\"", "width = \"-12 mm\"", "not-positive"),
+        // Metres for micrometres.
+        ("width = \"20 um\"", "width = \"20 m\"", "impossible-value"),
+        ("width = \"20 um\"", "width = [\"-20 um\", \"20 m\"]", "impossible-value"),
+        (
+            "width = \"20 um\"\nof = \"slot\"",
+            "flatness = \"20 m\"\nof = \"base\"",
+            "impossible-value",
+        ),
     ] {
         let text = all.replacen(from, to, 1);
         assert_ne!(text, all, "{from}");
@@ -484,4 +492,18 @@ fn law_how_narrow_slots_are_does_not_move_their_common_middle() {
         _ => 0.0,
     };
     near(values(&text, &by)[0], 2.0 * 6e-3 * 84.75 / 80.0, 1e-7);
+}
+
+/// `along` out of the plane counts by its direction within it, and is named.
+#[test]
+fn a_direction_out_of_the_plane_is_named() {
+    let all = [BASE, SLOT, OUTSIDE, HOLES, &asked("width", "slot", "")].concat();
+    for (along, told) in [("1 0 0.0001", vec![]), ("1 0 0.3", vec!["bad-direction"])] {
+        let text = all.replacen("along = \"1 0 0\"", &format!("along = \"{along}\""), 1);
+        assert_ne!(text, all);
+        let (part, problems) = read(&text);
+        assert!(part.is_some(), "{problems:?}");
+        let codes: Vec<&str> = problems.iter().map(|p| p.code).collect();
+        assert_eq!(codes, told, "{along}");
+    }
 }

@@ -379,6 +379,7 @@ fn bad_drawings_are_refused_by_name() {
         (part("datum = \"front\"", "name = \"x\""), "wrong-feature"),
         (part("datum = \"front\"", "datum = \"side\""), "wrong-feature"),
         (part("perpendicularity = \"10 um\"", "perpendicularity = \"0 um\""), "not-positive"),
+        (part("perpendicularity = \"10 um\"", "perpendicularity = \"10 m\""), "impossible-value"),
         (part("normal = \"1 0 0\"", "normal = \"0 0 0\""), "bad-direction"),
         (part("along = \"0 1 0\"", "along = \"1 0 0\""), "bad-direction"),
         (part("size = \"70 16 mm\"", "size = \"70 mm\""), "bad-place"),

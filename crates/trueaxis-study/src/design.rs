@@ -113,13 +113,13 @@ impl Design {
         combination / faster % self.levels[which].1
     }
 
-    /// To what the numbers of an input belong. On one day alone, everything belongs to machines: then the points fill the
-    /// space of all inputs together.
+    /// To what the numbers of an input belong. On one day alone, what is drawn for each day of each machine belongs to
+    /// machines: then the points fill the space of these inputs together. The hall stays one for all machines.
     pub fn set(&self, level: Level) -> Set {
         match level {
-            _ if self.days == 1 => Set::Machines,
-            Level::Machine => Set::Machines,
             Level::Hall => Set::Days,
+            Level::Day if self.days == 1 => Set::Machines,
+            Level::Machine => Set::Machines,
             Level::Day => Set::MachineDays,
         }
     }

@@ -143,3 +143,23 @@ value = "0 ± 30 urad"
         }
     }
 }
+
+/// The hall is one for all machines, on one day, too; and its first day does not depend on how many follow.
+#[test]
+fn law_the_hall_of_one_day_is_one_for_all_machines() {
+    let values = |days: usize, input: &str| -> Vec<f64> {
+        let design = format!("[design]\nmachines = 5\ndays = {days}\n{INPUTS}");
+        let study = frustum(&format!("hall-{days}"), &design);
+        let number = study.inputs.iter().position(|i| i.name == input).unwrap();
+        let first = (0..5).map(|machine| machine * days);
+        first.map(|sample| study.inputs_of(sample..sample + 1)[number]).collect()
+    };
+    let hall = values(1, "EA0Z added");
+    assert!(hall.iter().all(|value| *value == hall[0]), "{hall:?}");
+    assert_eq!(hall, values(2, "EA0Z added"));
+    // What belongs to a machine or to a day of it differs, on one day, too.
+    for input in ["EC0Y", "EZ0t"] {
+        let own = values(1, input);
+        assert!((1..5).all(|machine| own[machine] != own[0]), "{input}: {own:?}");
+    }
+}

@@ -33,6 +33,10 @@ use trueaxis_input::{Diagnostics, Place};
 const BEYOND_RAD: f64 = 0.1;
 /// Half of what an interval of 95 % leaves out.
 const TAIL: f64 = 0.025;
+/// A mean pre-travel this many standard uncertainties below 0 is a wrong size. Unit: 1.
+const SURE: f64 = 3.0;
+/// No mean of hits is known better, mm.
+const LEAST_U_MM: f64 = 1e-4;
 
 /// Range and root mean square of deviations.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -415,6 +419,34 @@ fn fresh_check(found: &Calibration, hits: &[Hit]) -> Option<FreshCheck> {
     (!hits.is_empty()).then_some(FreshCheck { deviations_mm, before, after, covered })
 }
 
+/// No probe triggers before it touches: a mean pre-travel below 0 is a wrong size.
+fn warn_of_sizes(found: &Calibration, place: &Place, problems: &mut Diagnostics) {
+    let count = found.before_mm.len().max(1) as f64;
+    let scatter = found.offset_only.rms_about_mean() / count.sqrt();
+    let u_mm = scatter.hypot(found.gauge.u_radius_mm).max(LEAST_U_MM);
+    let mean_mm = found.offset_only.mean_mm;
+    if mean_mm < -SURE * u_mm {
+        let message = format!(
+            "stylus `{}`: the mean pre-travel is {:.2} µm, below 0 by more than {SURE} u ({:.2} µm): no probe \
+             triggers before it touches",
+            found.stylus,
+            mean_mm * 1e3,
+            u_mm * 1e3
+        );
+        let hint = "the diameter of gauge or ball is another one than stated: calibrated values, ball_diameter";
+        problems.warn("wrong-size", place.clone(), message, hint);
+    }
+    let is_known = found.gauge.centre_mm.is_some() && found.fit.free.centre == 0;
+    if is_known && found.gauge.u_centre_mm == 0.0 && found.offset.is_some() {
+        let message = format!(
+            "stylus `{}`: the stated centre counts as exact in U of the offset",
+            found.stylus
+        );
+        let hint = "how well was it found? centre_u = \"1 um\"";
+        problems.note("no-uncertainty", place.clone(), message, hint);
+    }
+}
+
 fn warn(found: &Calibration, stylus: &Stylus, place: &Place, problems: &mut Diagnostics) {
     if found.offset.is_none() {
         let message = format!(
@@ -426,6 +458,7 @@ fn warn(found: &Calibration, stylus: &Stylus, place: &Place, problems: &mut Diag
                     deg and again at 180 deg";
         problems.warn("offset-unknown", place.clone(), message, hint);
     }
+    warn_of_sizes(found, place, problems);
     let fourier = |s: &&Score| s.model == LobingModel::Fourier;
     if found.scores.iter().filter(fourier).all(|s| s.size < 3) {
         let message = format!(

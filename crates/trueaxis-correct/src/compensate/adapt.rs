@@ -249,9 +249,10 @@ fn map(study: &AdaptStudy, field: &Field, path: &ClFile) -> Vec<MapCell> {
     pairs.map(cell).collect()
 }
 
-/// Where the virtual cut leaves less than the least wall.
+/// Where the virtual cut leaves less than the least wall; what is cut through is never good.
 fn thin_cells(study: &AdaptStudy, map: &[MapCell]) -> Option<Finding> {
-    let thin = map.iter().filter(|c| c.after.wall_mm < study.wall.least_mm);
+    let thin =
+        map.iter().filter(|c| c.after.wall_mm < study.wall.least_mm || c.after.wall_mm <= 0.0);
     let places = thin.clone().count();
     let worst = thin.min_by(|a, b| a.after.wall_mm.total_cmp(&b.after.wall_mm))?;
     let at = worst.after.at_mm;

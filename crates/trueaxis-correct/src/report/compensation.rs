@@ -123,7 +123,7 @@ fn section<'a>(axis: &Axis, table: &ValueTable) -> Section<'a> {
         false => "not known, as the temperature of the workpiece is not given".to_owned(),
     };
     let note = format!(
-        "errors, u (standard uncertainty) and remainder in {unit}; largest error of the part: {part}"
+        "errors, u (standard uncertainty) and remainder in {unit}; largest error of the part at these positions: {part}"
     );
     let known = |text: String| if table.part_is_known { text } else { "–".to_owned() };
     let both = table.nodes.iter().any(|n| n.by_direction.is_some());

@@ -181,7 +181,10 @@ fn hint_for(word: &str) -> &'static str {
     }
 }
 
-/// Whether a temperature is one of a workshop, °C; an impossible one is an error, a warm one a warning.
+/// Above it a temperature is warm, below it cold (ISO 1).
+const REFERENCE_CELSIUS: f64 = 20.0;
+
+/// Whether a temperature is one of a workshop, °C; an impossible one is an error, a warm or a cold one a warning.
 pub fn check_range(
     (sensor, celsius): (&str, f64),
     place: &Place,
@@ -195,7 +198,11 @@ pub fn check_range(
         problems.error("impossible-temperature", place.clone(), message, hint);
         return false;
     }
-    if standing == Standing::Odd && celsius > 0.0 {
+    if standing == Standing::Odd && celsius < REFERENCE_CELSIUS {
+        let message = format!("`{sensor}` reads {celsius} °C, colder than a workshop");
+        let hint = "check the sign and the sensor; a cold hall: [plausible] temperature_celsius = [-20, 45]";
+        problems.warn("implausible-value", place.clone(), message, hint);
+    } else if standing == Standing::Odd {
         let message = format!("`{sensor}` reads {celsius} °C, warmer than a workshop");
         let hint = "if these are °F: °C = (°F − 32)/1.8";
         problems.warn("warm-temperature", place.clone(), message, hint);
@@ -533,6 +540,10 @@ mod tests {
         assert_eq!(typed("a=30.5 b=31degC"), (true, vec![]));
         assert_eq!(typed("a=300"), (false, vec!["impossible-temperature"]));
         assert_eq!(typed("a=86"), (true, vec!["warm-temperature"]));
+        // 30.8 with a sign too many; a freezing hall is as far outside the plausible range as a hot one.
+        assert_eq!(typed("a=-30.8"), (true, vec!["implausible-value"]));
+        assert_eq!(typed("a=0 b=-0.1 c=45"), (true, vec!["implausible-value"]));
+        assert_eq!(typed("a=-41"), (false, vec!["impossible-temperature"]));
         assert_eq!(typed("a=86F"), (false, vec!["bad-temperature"]));
         assert_eq!(typed("a=1 a=2"), (false, vec!["duplicate-sensor"]));
         assert_eq!(typed("=3 a b=nan"), (false, vec!["bad-temperature"; 3]));

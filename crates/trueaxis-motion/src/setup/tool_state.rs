@@ -61,7 +61,7 @@ pub(super) fn read_state(section: &Section<'_>) -> ToolState {
     section.section("measured", |s| {
         state.length = s.get("length").and_then(|i| size(&i));
         state.diameter = s.get("diameter").and_then(|i| size(&i));
-        state.date = s.get("date").and_then(|i| i.date_or_text());
+        state.date = s.get("date").and_then(|i| i.date());
         if s.get("length").is_none() && s.get("diameter").is_none() {
             let hint = "measured = { length = \"89.98 mm ± 2 um\", diameter = \"2.99 mm\" }";
             s.error("missing-key", "nothing was measured".to_owned(), hint);

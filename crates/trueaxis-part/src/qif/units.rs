@@ -191,8 +191,13 @@ fn possible(node: Node<'_, '_>, value_mm: f64) -> Result<f64, Reason> {
 /// How many SI units a unit is.
 fn factor(unit: Node<'_, '_>, si: &[&str]) -> Result<f64, Reason> {
     let refuse = |text: String| Err(Reason::fault("unknown-unit", unit, text));
-    if let Some(base) = text_of(unit, "SIUnitName").filter(|base| !si.contains(&&**base)) {
-        return refuse(format!("a {} by `{}`, expected {}", name(unit), shown(&base), si[0]));
+    match text_of(unit, "SIUnitName") {
+        Some(base) if si.contains(&&*base) => {}
+        Some(base) => {
+            return refuse(format!("a {} by `{}`, expected {}", name(unit), shown(&base), si[0]));
+        }
+        // Nothing says then of what the unit is a multiple: an inch would be read as a metre.
+        None => return refuse(format!("a {} without its SIUnitName, {}", name(unit), si[0])),
     }
     // Without a conversion the unit is the SI unit itself.
     let Some(conversion) = child(unit, "UnitConversion") else { return Ok(1.0) };

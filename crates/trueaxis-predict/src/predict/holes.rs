@@ -15,6 +15,7 @@ use super::temperatures::{CuttingClock, RunningTemperatures, StudyTemperatures};
 use std::path::Path;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Direction, Point};
+use trueaxis_input::plausible::Quantity;
 use trueaxis_input::{Diagnostics, Dimension, Files, Place, Section, SourceText};
 use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::errors::ErrorValues;
@@ -251,11 +252,19 @@ fn read_compensation(section: &Section<'_>, folder: &Path, machine: Option<&Mach
 fn read_holes(section: &Section<'_>) -> Option<(Vec<Vec3>, [Option<f64>; 2])> {
     let count = section.require("count", "how many holes, such as 32").and_then(|i| i.count());
     let hint = "the diameter of their circle, such as \"1800 mm\"";
-    let circle = section.require("circle", hint).and_then(|i| i.quantity(Dimension::Length));
+    let circle = section.require("circle", hint).and_then(|item| {
+        let diameter_mm = item.quantity(Dimension::Length)?;
+        if diameter_mm <= 0.0 {
+            // All holes in one place have no location diameter: its tolerance would not be judged.
+            item.error("not-positive", "the diameter of a circle is above zero".to_owned(), hint);
+            return None;
+        }
+        Some(diameter_mm)
+    });
     let hint = "of the circle in the workpiece frame, such as \"1750 1150 0 mm\"";
     let centre = section.require("centre", hint).and_then(|i| read_vector_mm(&i));
     let tolerances = ["tolerance", "location_diameter_tolerance"].map(|key| {
-        let value = section.quantity(key, Dimension::Length);
+        let value = section.get(key).and_then(|item| item.quantity_of(Quantity::Deviation));
         if value.is_some_and(|v| v <= 0.0) {
             section.error("not-positive", format!("`{key}` is above zero"), "such as \"0.046 mm\"");
         }

@@ -155,7 +155,7 @@ fn good<'a>(study: &Study, one: &CombinationFindings) -> Section<'a> {
     } else {
         format!("on at least {} of the days", percent(days))
     };
-    let hall = study.inputs.iter().any(|i| i.level == Level::Hall) && study.design.days > 1;
+    let hall = study.inputs.iter().any(|i| i.level == Level::Hall);
     let hall = match hall {
         true => {
             " The days of the hall are those that were drawn: the interval is that of other machines on the same days."

@@ -12,7 +12,7 @@ use trueaxis_calibrate::plan::program::ProgramCheck;
 use trueaxis_calibrate::plan::tool_setting::{
     ToolSetting, check_setting, setting_program, tool_setting,
 };
-use trueaxis_input::{Diagnostics, Files, Place};
+use trueaxis_input::{DATE_HINT, Diagnostics, Files, Place, is_date};
 use trueaxis_machine::Machine;
 use trueaxis_motion::read_setup;
 use trueaxis_nc::Control;
@@ -147,6 +147,10 @@ impl Question for IdentifyTools {
     type Answer = ToolsAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
+        if let Some(date) = self.date.as_ref().filter(|date| !is_date(date)) {
+            let message = format!("`{date}` is not a date");
+            problems.error("bad-date", Place::whole("--date"), message, DATE_HINT);
+        }
         let setting = self.choice.read(files, problems)?;
         let text = files.text(&self.log, "the log of a tool setting", problems)?;
         let log = parse_log(&self.log.display().to_string(), &text, &setting.machine, problems)?;

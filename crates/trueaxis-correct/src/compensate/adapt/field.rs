@@ -7,7 +7,7 @@
 //! Both parts are estimated at once, so that the uncertainty of the registration knows of the form.
 
 use super::registration::{Freedoms, Registration};
-use super::table::SurfacePoint;
+use super::table::{SurfacePoint, order_of_points};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use trueaxis_geometry::Vec3;
@@ -126,6 +126,18 @@ impl Field {
         if points.len() > MOST_POINTS {
             return Err(FieldError::TooManyPoints(points.len()));
         }
+        // The length of the form is chosen on every so many of the points: not on those that the rows happen to show.
+        let order = order_of_points(points);
+        let points: Vec<SurfacePoint> = order.iter().map(|i| points[*i]).collect();
+        let mut field = Self::fit_in_order(&points, options)?;
+        let mut left_out_z = vec![0.0; points.len()];
+        order.iter().zip(&field.left_out_z).for_each(|(row, z)| left_out_z[*row] = *z);
+        field.left_out_z = left_out_z;
+        field.outliers.iter_mut().for_each(|outlier| outlier.index = order[outlier.index]);
+        Ok(field)
+    }
+
+    fn fit_in_order(points: &[SurfacePoint], options: &FieldOptions) -> Result<Self, FieldError> {
         let freedoms = Freedoms::of(points);
         let readings = Readings::of(points, &freedoms, options.noise_mm);
         let mut extra = vec![0.0; points.len()];

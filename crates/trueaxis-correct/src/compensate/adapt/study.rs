@@ -250,6 +250,16 @@ fn positive(item: &Item<'_>) -> Option<f64> {
     Some(value)
 }
 
+/// A wall of less than nothing is a hole: a least wall below 0 would call a path good that cuts through.
+fn not_negative(item: &Item<'_>) -> Option<f64> {
+    let value = item.quantity(Dimension::Length)?;
+    if value < 0.0 {
+        item.error("not-positive", "it is negative".to_owned(), "such as \"0.05 mm\"");
+        return None;
+    }
+    Some(value)
+}
+
 fn read_cutter(section: &Section<'_>) -> Option<Cutter> {
     let diameter = section.require("diameter", "diameter = \"8 mm\"").and_then(|i| positive(&i));
     let hint = "corner_radius = \"4 mm\": half of the diameter for a ball, \"0 mm\" for a flat end";
@@ -289,7 +299,7 @@ fn read_wall(root: &Section<'_>) -> Option<Wall> {
         item.section("wall", |s| {
             let thickness = s.require("thickness", hint);
             let thickness = thickness.and_then(|i| i.measured(Dimension::Length));
-            let least = s.require("least", hint).and_then(|i| i.quantity(Dimension::Length));
+            let least = s.require("least", hint).and_then(|i| not_negative(&i));
             let inner = s.get("inner").map_or(Some(Inner::default()), |i| word(&i, &Inner::ALL));
             Some((checked_thickness(s, thickness?)?, least?, inner?))
         })

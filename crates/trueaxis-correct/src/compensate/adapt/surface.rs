@@ -1,6 +1,6 @@
 //! The nominal surface, as far as points with normals tell it.
 
-use super::table::SurfacePoint;
+use super::table::{SurfacePoint, order_of_points};
 use nalgebra::{SMatrix, SVector};
 use trueaxis_geometry::Vec3;
 
@@ -38,7 +38,8 @@ pub struct NominalSurface {
 impl NominalSurface {
     /// From the nominal places of a table.
     pub fn of(points: &[SurfacePoint]) -> Self {
-        Self { points: points.iter().map(|p| (p.at_mm, p.normal)).collect() }
+        let pair = |i: usize| (points[i].at_mm, points[i].normal);
+        Self { points: order_of_points(points).into_iter().map(pair).collect() }
     }
 
     /// The nearest place of the surface.

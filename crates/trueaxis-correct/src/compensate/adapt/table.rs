@@ -1,5 +1,7 @@
 //! Points of a surface with their normals and what was measured along them.
 
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{CsvTable, Diagnostics, Dimension, Place, Unit};
 
@@ -17,6 +19,8 @@ const LARGEST_COORDINATE_MM: f64 = 1e5;
 const NORM_WARNING: f64 = 1e-4;
 /// A normal whose length is off by more is none.
 const NORM_ERROR: f64 = 0.05;
+/// So many copies of rows are named one by one.
+const MOST_COPIES_NAMED: usize = 3;
 
 /// One place of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,6 +37,14 @@ pub struct SurfacePoint {
     pub deviation_mm: f64,
     /// Standard uncertainty of the deviation, mm, if the table states it.
     pub u_mm: Option<f64>,
+}
+
+impl SurfacePoint {
+    /// All that its row says. −0 is 0.
+    fn key(&self) -> [f64; 9] {
+        let (at, n, u) = (self.at_mm, self.normal, self.u_mm.unwrap_or(0.0));
+        [self.number, at.x, at.y, at.z, n.x, n.y, n.z, self.deviation_mm, u].map(|v| v + 0.0)
+    }
 }
 
 /// Reads a table `point,x_mm,y_mm,z_mm,i,j,k,deviation_um`, with `U_um` (k = 2) or `u_um` (k = 1) if it is there.
@@ -86,13 +98,64 @@ fn points_of(table: &CsvTable, problems: &mut Diagnostics) -> Option<Vec<Surface
         check_size(&point, place, problems);
         points.push(point);
     }
-    if table.rows() < LEAST_POINTS {
-        let message = format!("{} points are no surface", table.rows());
+    let rows = points.len();
+    let points = copies_once(points, &table.file, problems);
+    // Rows that are wrong have their own errors.
+    let different = table.rows() - (rows - points.len());
+    if different < LEAST_POINTS {
+        let message = format!("{different} points are no surface");
         let hint = format!("probe at least {LEAST_POINTS} places, all over what is cut");
         problems.error("too-few-points", Place::whole(&table.file), message, &hint);
     }
     check_sides(&points, &table.file, problems);
     Some(points)
+}
+
+/// The points without rows that are equal to an earlier one to the last digit. They would foretell each other without
+/// error: no outlier would be seen, and U would shrink without a reading.
+fn copies_once(
+    points: Vec<SurfacePoint>,
+    file: &str,
+    problems: &mut Diagnostics,
+) -> Vec<SurfacePoint> {
+    let (all, mut copies) = (points.len(), 0);
+    let mut first: BTreeMap<[u64; 9], u32> = BTreeMap::new();
+    let mut once = Vec::with_capacity(all);
+    let hint = "a reading that was taken again has a number of its own; delete copies";
+    for point in points {
+        let of = *first.entry(point.key().map(f64::to_bits)).or_insert(point.line);
+        if of == point.line {
+            once.push(point);
+            continue;
+        }
+        copies += 1;
+        if copies <= MOST_COPIES_NAMED {
+            let place = Place { file: file.to_owned(), line: point.line as usize, column: 1 };
+            let message = format!(
+                "this row is that of line {of} again, to the last digit: the two count once"
+            );
+            problems.warn("copied-rows", place, message, hint);
+        }
+    }
+    if copies > MOST_COPIES_NAMED {
+        let message = format!("{copies} of {all} rows are copies in all");
+        problems.warn("copied-rows", Place::whole(file), message, hint);
+    }
+    once
+}
+
+/// The places of the rows in the order of the numbers of their points (and of all else that they say, where these are equal),
+/// whatever the order of the rows: by it points are added and thinned, so that a sorted table has the same answer to the last
+/// bit.
+pub(super) fn order_of_points(points: &[SurfacePoint]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|a, b| {
+        let mut pairs = points[*a].key().into_iter().zip(points[*b].key());
+        pairs
+            .find_map(|(a, b)| Some(a.total_cmp(&b)).filter(|o| o.is_ne()))
+            .unwrap_or(Ordering::Equal)
+    });
+    order
 }
 
 fn check_size(point: &SurfacePoint, place: Place, problems: &mut Diagnostics) {

@@ -1,8 +1,8 @@
 //! Characteristics of the part file: what is asked of which feature, to which datums.
 
 use super::asked::Asked;
-use super::positive;
 use crate::part::{Characteristic, Datum, Feature, Kind, Limits};
+use trueaxis_input::plausible::Quantity;
 use trueaxis_input::{Dimension, Item, Section};
 
 pub(super) fn read_characteristic(
@@ -156,19 +156,25 @@ fn datum_words(item: &Item<'_>) -> Option<Vec<String>> {
 /// `"20 um"`, for a size `"±20 um"` or `["-10 um", "25 um"]`.
 fn read_limits(item: &Item<'_>, kind: Kind) -> Option<Limits> {
     if !kind.is_size() {
-        return positive(item, kind.key()).map(|tolerance_mm| Limits::Zone { tolerance_mm });
+        let tolerance_mm = item.quantity_of(Quantity::Deviation)?;
+        if tolerance_mm <= 0.0 {
+            let message = format!("`{}` must be positive", kind.key());
+            item.error("not-positive", message, "a tolerance such as \"20 um\"");
+            return None;
+        }
+        return Some(Limits::Zone { tolerance_mm });
     }
     let limits = match item.is_list() {
         true => {
             let list = item.list()?;
             let both: Vec<Option<f64>> =
-                list.iter().map(|i| i.quantity(Dimension::Length)).collect();
+                list.iter().map(|i| i.quantity_of(Quantity::Deviation)).collect();
             match both[..] {
                 [Some(low_mm), Some(high_mm)] => Some((low_mm, high_mm)),
                 _ => None,
             }
         }
-        false => item.quantity(Dimension::Length).map(|v| (-v, v)),
+        false => item.quantity_of(Quantity::Deviation).map(|v| (-v, v)),
     };
     match limits {
         Some((low_mm, high_mm)) if low_mm < high_mm => Some(Limits::Size { low_mm, high_mm }),

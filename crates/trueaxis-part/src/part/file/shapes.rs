@@ -163,6 +163,9 @@ fn read_torus(
     Some(Geometry::Torus { at_mm, axis, ring_mm, radius_mm, section_rad, is_hole })
 }
 
+/// A direction of three digits is as exact as this.
+const OUT_OF_PLANE_DEG: f64 = 0.1;
+
 /// A direction (`normal`, `across`), `along` and `size`.
 fn read_rectangle(section: &Section<'_>, key: &str, is: &str) -> Option<(Vec3, Vec3, [f64; 2])> {
     let normal = section
@@ -189,6 +192,14 @@ fn read_rectangle(section: &Section<'_>, key: &str, is: &str) -> Option<(Vec3, V
                 let hint = &format!("a direction at right angles to `{key}`");
                 section.error("bad-direction", message, hint);
                 return None;
+            }
+            let off_deg = along.dot(&normal).abs().asin().to_degrees();
+            if off_deg > OUT_OF_PLANE_DEG {
+                let message = format!(
+                    "`along` is {off_deg:.2} deg out of the plane; its direction in the plane counts"
+                );
+                let hint = &format!("a direction at right angles to `{key}`");
+                section.warn("bad-direction", message, hint);
             }
             within.normalize()
         }
