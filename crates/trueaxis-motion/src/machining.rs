@@ -192,7 +192,7 @@ impl Machining {
         let diagonal_mm = (high - low).norm();
         let fits = |tool: Result<Tool, String>| {
             let known = tool.and_then(|tool| tool.fits(diagonal_mm));
-            known.map_err(|why| (why, STATE_CUTTER.to_owned()))?.is_seen(resolution_mm)
+            known.map_err(|why| (why, STATE_CUTTER.to_owned()))?.seen_at(resolution_mm)
         };
         let tools = known.into_iter().map(|(number, tool)| (number, fits(tool)));
         Ok(Self {
@@ -450,7 +450,7 @@ impl Tool {
     }
 
     /// A cutter that is thinner than the stock is fine would pass between its lines without a trace.
-    fn is_seen(self, resolution_mm: f64) -> Result<Self, Unknown> {
+    fn seen_at(self, resolution_mm: f64) -> Result<Self, Unknown> {
         let width_mm = self.width_mm();
         let needed_mm = width_mm / LEAST_WIDTH;
         if resolution_mm <= needed_mm {
