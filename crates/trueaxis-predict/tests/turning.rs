@@ -46,7 +46,7 @@ fn law_a_shaft_milled_by_turning_the_table_is_round() {
 fn law_a_flank_does_not_depend_on_the_number_of_blocks() {
     let machine = MACHINE.replace("w C b", "w C A b");
     let part = "name = \"p\"\n[feature.flank]\nplane = { at = \"60 0 -10 mm\", normal = \"1 0 0\", along = \"0 1 0\", size = \"70 16 mm\" }\n\
-        spacing = \"2 mm\"\nbelow = \"25 mm\"\nabove = \"25 mm\"\n[[characteristic]]\nprofile = \"50 mm\"\nof = \"flank\"\n";
+        spacing = \"2 mm\"\nbelow = \"25 mm\"\nabove = \"25 mm\"\n[[characteristic]]\nprofile = \"9 mm\"\nof = \"flank\"\n";
     let value = |blocks: u32| {
         let at = |k: u32| {
             let u = f64::from(k) / f64::from(blocks);

@@ -339,12 +339,12 @@ fn feeds(posted: &Posted, control: Control) -> Vec<f64> {
 /// With the tool length alone a tilted tool is refused with its line.
 #[test]
 fn a_turned_tool_needs_more_than_its_length() {
-    let text = "UNITS/MM\nFEDRAT/9\nMULTAX/ON\nGOTO/0,0,0,0,0,1\nGOTO/1,0,0,0.6,0,0.8\n";
+    let text = "UNITS/MM\nLOADTL/1\nFEDRAT/9\nMULTAX/ON\nGOTO/0,0,0,0,0,1\nGOTO/1,0,0,0.6,0,0.8\n";
     let (none, problems) =
         post(&machine("i5-engraver"), &cl(text), &options(Fanuc, Some(TipWords::Length)));
     assert!(none.is_none());
     let found: Vec<_> = problems.iter().map(|p| (p.place.line, p.code)).collect();
-    assert_eq!(found, [(5, "turned-tool")]);
+    assert_eq!(found, [(6, "turned-tool")]);
 }
 
 /// The place after a cycle and after an arc is known: the next moves go where the file says.
