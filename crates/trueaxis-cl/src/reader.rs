@@ -176,7 +176,7 @@ impl<'n> Reader<'n> {
             let hint = "write TLAXIS/0,0,1 or MULTAX/OFF where the tool stands upright again";
             self.problems.note("tool-axis-kept", self.place(first), message, hint);
         }
-        self.technology_is_clear();
+        self.warn_of_no_tool();
         let (count, line, worst) = self.off;
         if count > 0 {
             let message = format!(

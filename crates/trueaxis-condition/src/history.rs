@@ -9,9 +9,8 @@ mod read;
 
 pub use read::{Calibration, read_document, read_limits, read_machine};
 
-use crate::date::Date;
 use std::collections::BTreeMap;
-use trueaxis_input::{Diagnostics, Place};
+use trueaxis_input::{Date, Diagnostics, Place};
 use trueaxis_standards::coverage::{Contribution, Expanded, combine};
 
 /// Limits of a chart of individuals: so many mean moving ranges from the mean (ISO 7870-2, 3/d₂ with d₂ = 1.128).

@@ -11,7 +11,6 @@
 
 pub mod ball_bar;
 pub mod certificate_head;
-pub mod date;
 pub mod history;
 pub mod history_report;
 pub mod report;

@@ -1,10 +1,9 @@
 //! The uncertainty of a trend from the scatter of the points about it.
 
-use trueaxis_condition::date::Date;
 use trueaxis_condition::history::{
     Calibration, DAYS_PER_YEAR, Limits, Point, Trend, history, read_machine,
 };
-use trueaxis_input::Diagnostics;
+use trueaxis_input::{Date, Diagnostics};
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::NoTables;
 

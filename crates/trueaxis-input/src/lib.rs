@@ -39,6 +39,7 @@
 
 mod content;
 mod csv;
+mod date;
 mod diagnostic;
 mod draft;
 mod files;
@@ -54,9 +55,10 @@ mod vector;
 
 pub use content::{Content, Kept};
 pub use csv::{CsvColumn, CsvTable};
+pub use date::Date;
 pub use diagnostic::{Diagnostic, Diagnostics, Place, Severity};
 pub use draft::Draft;
 pub use files::{Files, Source};
 pub use in_order::{in_order, usual_threads};
 pub use quantity::{Dimension, MeasuredValue, QuantityError, Unit, parse_measured, parse_quantity};
-pub use section::{DATE_HINT, Item, Section, SourceText, is_date};
+pub use section::{DATE_HINT, Item, Section, SourceText};

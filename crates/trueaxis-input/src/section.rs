@@ -3,8 +3,8 @@
 use crate::limits::{MOST_SYNTAX_FAULTS, toml_excess};
 use crate::plausible::{Limits, Quantity, Seen};
 use crate::{
-    Diagnostic, Diagnostics, Dimension, Files, MeasuredValue, Place, QuantityError, Severity, Unit,
-    parse_measured, parse_quantity,
+    Date, Diagnostic, Diagnostics, Dimension, Files, MeasuredValue, Place, QuantityError, Severity,
+    Unit, parse_measured, parse_quantity,
 };
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
@@ -366,7 +366,7 @@ impl<'s> Item<'s> {
     /// A date as it was written; what is none is refused.
     pub fn date(&self) -> Option<String> {
         let text = self.date_or_text()?;
-        if is_date(&text) {
+        if Date::parse(&text).is_some() {
             return Some(text);
         }
         let message = format!("`{text}` is not a date");
@@ -385,27 +385,6 @@ impl<'s> Item<'s> {
 
 /// How dates are written.
 pub const DATE_HINT: &str = "2026-03-14, or \"14.03.2026\"";
-
-/// Whether a text is a day of the calendar: `2026-03-14`, `2026/03/14` or `14.03.2026`, also with a time after it.
-///
-/// ```
-/// use trueaxis_input::is_date;
-/// assert!(["2026-03-14", "2026/3/14", "14.03.2026", "2024-02-29T10:00:00"].iter().all(|t| is_date(t)));
-/// assert!(!["foo", "", "2026-02-30", "03/04/2026", "2026-03", "2023-02-29"].iter().any(|t| is_date(t)));
-/// ```
-pub fn is_date(text: &str) -> bool {
-    let day = text.trim().split(['T', ' ', 't']).next().unwrap_or_default();
-    let digits = |part: &str| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit());
-    let parts = |sign: char| -> Option<[&str; 3]> {
-        let all: Vec<&str> = day.split(sign).collect();
-        all.try_into().ok().filter(|parts: &[&str; 3]| parts.iter().all(|p| digits(p)))
-    };
-    let iso = |[year, month, day]: [&str; 3]| format!("d = {year}-{month:0>2}-{day:0>2}");
-    let ymd = parts('-').or_else(|| parts('/'));
-    let ymd = ymd.or_else(|| parts('.').map(|[day, month, year]| [year, month, day]));
-    // The calendar is that of TOML, which knows how many days a month has.
-    ymd.is_some_and(|ymd| DeTable::parse(&iso(ymd)).is_ok())
-}
 
 /// A table of a TOML file. It records which keys were asked for and reports the others as unknown.
 #[derive(Debug)]

@@ -461,20 +461,24 @@ pub fn overall(judged: &[Judged]) -> Option<Decision> {
 mod tests {
     use super::*;
 
+    /// A of 1 µm without U.
+    fn figure() -> Figure {
+        Figure {
+            name: "A".into(),
+            dimension: Dimension::Length,
+            value: 1e-3,
+            uncertainty: None,
+            at_most: None,
+        }
+    }
+
     #[test]
     fn a_file_has_limits_for_all_axes_and_for_one() {
         let text =
             "[tolerance]\nA = '10 um'\nR = '6 um'\n[axis.X]\nA = '8 um'\n[axis.C]\nA = '5 arcsec'";
         let read = |axis: Option<&str>| {
             let source = SourceText::new("t.toml", text);
-            let figure = Figure {
-                name: "A".into(),
-                dimension: Dimension::Length,
-                value: 1e-3,
-                uncertainty: None,
-                at_most: None,
-            };
-            let all = source.read(|root| read_file(root, axis, &[figure]));
+            let all = source.read(|root| read_file(root, axis, &[figure()]));
             // Without an axis it is not known whether 10 or 8 µm hold.
             assert_eq!(source.finish().has_errors(), axis.is_none());
             all.iter().map(|t| (t.name.clone(), t.limit)).collect::<Vec<_>>()
@@ -486,13 +490,7 @@ mod tests {
 
     #[test]
     fn bad_tolerances_are_named() {
-        let figure = Figure {
-            name: "A".into(),
-            dimension: Dimension::Length,
-            value: 1e-3,
-            uncertainty: None,
-            at_most: None,
-        };
+        let figure = figure();
         for (typed, code) in [
             ("A", "bad-tolerance"),
             ("A=-1 um", "bad-tolerance"),

@@ -79,7 +79,7 @@ impl Reader<'_> {
     /// SPINDL/RPM,1000,CLW. Without a direction the last one holds, ON has the last speed too.
     pub(super) fn spindle(&mut self, s: &Statement) -> Result<Word, Fault> {
         let (mut speed, mut turning, mut is_on, mut by_surface) = (None, None, false, false);
-        let mut arguments = s.arguments().filter(|a| !a.is_empty()).peekable();
+        let mut arguments = s.arguments().filter(|a| !a.is_empty());
         while let Some(argument) = arguments.next() {
             let word = argument.to_ascii_uppercase();
             match word.as_str() {
@@ -179,8 +179,8 @@ impl Reader<'_> {
         Ok(Word::Tool(tool))
     }
 
-    /// Whether the program names the tool that the file chose.
-    pub(super) fn technology_is_clear(&mut self) {
+    /// A tool that the file chose and did not load is not named in the program.
+    pub(super) fn warn_of_no_tool(&mut self) {
         if let Some(line) = self.technology.selected.filter(|_| !self.technology.loaded) {
             let message = "the file chooses a tool, but loads none (LOADTL)".to_owned();
             let hint = "write LOADTL/number where the tool is changed";

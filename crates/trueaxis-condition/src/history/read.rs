@@ -1,11 +1,10 @@
 //! Machine files and documents of `evaluate` as calibrations: their date and their figures.
 
 use super::{Limits, Point};
-use crate::date::Date;
 use serde_json::Value;
 use std::path::Path;
 use trueaxis_geometry::AxisKind;
-use trueaxis_input::{Diagnostics, Dimension, Files, Place, parse_quantity};
+use trueaxis_input::{Date, Diagnostics, Dimension, Files, Place, parse_quantity};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Travel;
 use trueaxis_machine::errors::{ErrorKind, ErrorName, StatedError};

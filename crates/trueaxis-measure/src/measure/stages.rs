@@ -11,7 +11,7 @@ use crate::instruments::instrument::SetupError;
 use crate::unknowns::design::{Design, Unknown};
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
-use trueaxis_input::{Dimension, Item, Place, Section};
+use trueaxis_input::{Date, Dimension, Item, Place, Section};
 
 /// A value that is stated without uncertainty is held to this. Unit: mm, rad or 1.
 pub const FIXED_U: f64 = 1e-6;
@@ -415,7 +415,8 @@ fn check_equipment(root: &Section<'_>, design: &Design, stages: &[Stage]) {
         let [Some(before), Some(after)] = [&pair[0], &pair[1]].map(|s| s.date.as_ref()) else {
             continue;
         };
-        if is_date(before) && is_date(after) && after < before {
+        let days = Date::parse(before).zip(Date::parse(after));
+        if days.is_some_and(|(before, after)| after < before) {
             let message = format!(
                 "stage `{}` of {after} stands after stage `{}` of {before}",
                 pair[1].name, pair[0].name
@@ -450,10 +451,6 @@ pub(super) fn warn_of_doubles(
             root.warn("prior-twice", message, hint);
         }
     }
-}
-
-fn is_date(text: &str) -> bool {
-    text.len() >= 10 && text.as_bytes()[4] == b'-' && text.as_bytes()[7] == b'-'
 }
 
 fn check_length(root: &Section<'_>, design: &Design, stage: &Stage, (text, place): (&str, &Place)) {

@@ -12,7 +12,7 @@ use trueaxis_calibrate::plan::program::ProgramCheck;
 use trueaxis_calibrate::plan::tool_setting::{
     ToolSetting, check_setting, setting_program, tool_setting,
 };
-use trueaxis_input::{DATE_HINT, Diagnostics, Files, Place, is_date};
+use trueaxis_input::{DATE_HINT, Date, Diagnostics, Files, Place};
 use trueaxis_machine::Machine;
 use trueaxis_motion::read_setup;
 use trueaxis_nc::Control;
@@ -147,7 +147,7 @@ impl Question for IdentifyTools {
     type Answer = ToolsAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
-        if let Some(date) = self.date.as_ref().filter(|date| !is_date(date)) {
+        if let Some(date) = self.date.as_ref().filter(|date| Date::parse(date).is_none()) {
             let message = format!("`{date}` is not a date");
             problems.error("bad-date", Place::whole("--date"), message, DATE_HINT);
         }

@@ -10,9 +10,10 @@ use super::validation::{AllowedPoses, Validation, read_validation};
 use super::{UncertaintySource, identified};
 use std::path::Path;
 use trueaxis_condition::certificate_head::{CertificateHead, read_head};
-use trueaxis_condition::date::Date;
 use trueaxis_correct::compensate::not_twice;
-use trueaxis_input::{Diagnostics, Dimension, Files, Item, MeasuredValue, Section, SourceText};
+use trueaxis_input::{
+    Date, Diagnostics, Dimension, Files, Item, MeasuredValue, Section, SourceText,
+};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Axis, AxisKind, Travel};
 use trueaxis_machine::describe::axis_index;
