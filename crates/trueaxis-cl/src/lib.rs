@@ -113,7 +113,7 @@ pub enum Word {
     Rapid,
     /// FEDRAT.
     Feed(Feed),
-    /// SPINDL: direction, and speed in 1/min if given.
+    /// SPINDL: direction, and speed in 1/min if given; 0 where a surface speed is stated, with which it is not known.
     Spindle(SpindleDirection, Option<f64>),
     /// COOLNT.
     Coolant(Coolant),

@@ -107,6 +107,11 @@ fn a_spindle_turns_as_the_file_says_or_not_at_all() {
     for line in ["SPINDL/-500", "SPINDL/RPM,100,REVERS", "SPINDL/RPM,100,200"] {
         refused(line, "bad-spindle");
     }
+    // A surface speed leaves no speed that turns are counted by.
+    let surface = Word::Spindle(Clockwise, Some(0.0));
+    assert_eq!(word("SPINDL/120,SFM,CLW"), (surface, vec!["surface-speed"]));
+    let (_, found) = read(&format!("{HEAD}SPINDL/120,SMM\nDELAY/2,REV\n"));
+    assert_eq!(found, [(5, "surface-speed"), (6, "bad-delay")]);
     // ON and a speed alone keep the direction.
     let (words, found) = read(&format!("{HEAD}SPINDL/CCLW\nSPINDL/OFF\nSPINDL/ON\nSPINDL/900\n"));
     assert_eq!(words[6], Word::Spindle(CounterClockwise, None));

@@ -223,3 +223,20 @@ fn a_circle_that_does_not_lead_to_its_point_is_refused() {
     }
     assert_eq!(proved(&text("100.004"), &options(Fanuc)).0.arcs, 1);
 }
+
+/// A feed per revolution needs the speed that turns, not the one before a surface speed.
+#[test]
+fn a_surface_speed_leaves_no_feed_per_revolution() {
+    let text = |surface: &str| {
+        format!(
+            "UNITS/MM\nLOADTL/1\nSPINDL/RPM,1000,CLW\n{surface}FEDRAT/0.2,MMPR\nGOTO/0,0,30\n{}",
+            cut(10)
+        )
+    };
+    let (_, program) = proved(&text(""), &options(Fanuc));
+    assert!(program.contains("F200."), "{program}");
+    let (posted, problems) =
+        post(&machine("three-axis-mill"), &cl(&text("SPINDL/120,SFM,CLW\n")), &options(Fanuc));
+    let codes: Vec<_> = problems.iter().map(|p| p.code).collect();
+    assert!(posted.is_none() && codes == ["no-feed"], "{codes:?}");
+}

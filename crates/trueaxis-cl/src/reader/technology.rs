@@ -108,7 +108,8 @@ impl Reader<'_> {
             let message = "SPINDL states a surface speed: no spindle speed is written".to_owned();
             let hint = "state the speed in rpm, such as SPINDL/RPM,3000,CLW";
             self.warn("surface-speed", "", s.line, message, hint);
-            speed = None;
+            // What turned before does not turn any more.
+            speed = Some(0.0);
         } else if speed.is_none() && turning.is_none() && !is_on {
             // Limits and ranges alone turn nothing.
             return Ok(Word::Noted);
@@ -120,7 +121,7 @@ impl Reader<'_> {
         }
         let turning = turning.or(self.technology.turning).unwrap_or(SpindleDirection::Clockwise);
         self.technology.turning = Some(turning);
-        self.technology.speed = if by_surface { None } else { speed.or(self.technology.speed) };
+        self.technology.speed = speed.or(self.technology.speed).filter(|v| *v > 0.0);
         Ok(Word::Spindle(turning, speed))
     }
 
