@@ -376,7 +376,7 @@ fn a_drift_is_along_the_machine() {
         assert!(moved[1].abs() < 3e-6 && moved[2].abs() < 3e-6, "{moved:?}");
     }
     let bare = &design.instruments[0];
-    assert_ne!(bare.drifted(&design.machine, &[0.3; 6], 10.0), Mat3::zeros());
+    assert_ne!(bare.drifted(&design.machine, &[0.3; 6], 10.0).along_axes, Mat3::zeros());
 }
 
 /// What a reading does is what its slope says, for every unknown, the drift too.
@@ -444,4 +444,117 @@ fn nothing_depends_on_threads() {
     let run = |table: Arc<String>| move || value(&found(CAMPAIGN, &table).1, "probe.drift_z");
     let [a, b] = [0, 1].map(|_| std::thread::spawn(run(Arc::clone(&table))));
     assert_eq!(a.join().expect("a value"), b.join().expect("a value"));
+}
+
+/// A bar on the tests BK1, BK2 and BK3 of ISO 10791-6 on a mill whose tables turn.
+const BAR: &str = r#"
+name = "a bar that grows"
+machine = "../../machines/lei-hsu-mill/machine.toml"
+[unknown]
+location = "minimal"
+[instrument.bar]
+kind = "ball-bar"
+spindle_ball = "0 0 -180 mm"
+table_ball = "0 0 50 mm"
+length = "100 mm"
+noise = "0.5 um"
+reads = "deviation"
+readings = "drift.csv"
+unknown = { drift = "free" }
+[[path]]
+kind = "BK1"
+from = "90 deg"
+to = "0 deg"
+count = 31
+[[path]]
+kind = "BK2"
+from = "0 deg"
+to = "350 deg"
+count = 36
+[[path]]
+kind = "BK3"
+half_angle = "15 deg"
+pole = "0 0.173648 0.984808"
+count = 73
+[truth]
+errors = { EX0C = "10 um", EY0C = "-12 um", EA0C = "20 urad", EB0C = "-25 urad", EY0A = "15 um", EZ0A = "-10 um", EB0A = "30 urad", EC0A = "-20 urad", EC0X = "25 urad", EA0Y = "-15 urad", EB0Z = "20 urad" }
+[disturb]
+drift_per_hour = "20 um"
+"#;
+
+/// A probe in a head: a spindle that grows along itself, which no motion of the ball can stand for.
+const HEAD: &str = r#"
+name = "a spindle that grows"
+machine = "../../machines/wyxzcat-gantry/machine.toml"
+[unknown]
+location = "minimal"
+[instrument.probe]
+kind = "probe-ball"
+socket = "0 0 -330 mm"
+noise = "1 um"
+reads = "ball"
+readings = "drift.csv"
+unknown = { ball = "free", socket = "5 um", drift = "free" }
+[[path]]
+kind = "random"
+A = ["-60 deg", "60 deg"]
+C = ["-150 deg", "150 deg"]
+count = 40
+seed = 5
+dwell = "100 s"
+[truth]
+errors = { EY0C = "12 um", EX0C = "8 um", EA0C = "20 urad", EB0C = "-15 urad", EY0A = "9 um", EZ0A = "5 um" , EB0A = "20 urad", EC0A = "-12 urad" }
+setup = { socket_drift_z = "-30 um/h", drift_x = "6 um/h" }
+"#;
+
+/// How often the errors and rates of many campaigns lie within their 95 % intervals.
+fn share_inside(campaign: &str) -> f64 {
+    let (campaign, real) = virtually(campaign, 1);
+    let true_value = |term: Option<&trueaxis_measure::unknowns::term::Term>, name: &str| match term
+    {
+        Some(t) => real.truth.errors.iter().find(|(e, _)| *e == t.error).map(|(_, value)| *value),
+        None => match name {
+            "bar.length_drift" => Some(0.020),
+            "probe.socket_drift_z" => Some(-0.030),
+            "probe.drift_x" => Some(0.006),
+            _ => name.contains("drift").then_some(0.0),
+        },
+    };
+    let (mut inside, mut all) = (0_u32, 0_u32);
+    for seed in 0..100 {
+        let truth =
+            trueaxis_measure::measure::virtual_campaign::Truth { seed, ..real.truth.clone() };
+        let real = VirtualCampaign { truth, ..real.clone() };
+        let readings = measure(&campaign, &real).expect("readings").readings;
+        let design = campaign.design().from_first_readings(&readings);
+        let fit = fit(&design, &readings, &[]).expect("a fit");
+        for k in (0..design.unknowns()).filter(|k| fit.sight.is_seen[*k]) {
+            let name = design.unknown(k).expect("in range").name();
+            let Some(truth) = true_value(design.terms.get(k), &name) else { continue };
+            let is_in = (fit.values[k] - truth).abs() < 1.96 * fit.covariance[(k, k)].sqrt();
+            (inside, all) = (inside + u32::from(is_in), all + 1);
+        }
+    }
+    assert!(all >= 100 * 8, "{all}");
+    f64::from(inside) / f64::from(all)
+}
+
+/// A drift of the length of a bar, and of a tool along a head, are found with their own rates, and displace no error.
+#[test]
+fn law_a_bar_that_grows_and_a_spindle_that_grows_are_covered() {
+    for campaign in [BAR, HEAD] {
+        let share = share_inside(campaign);
+        assert!((0.92..0.98).contains(&share), "{share}");
+    }
+    // Without the rate of its own length, the bar's growth is taken for angles of the tables, in silence.
+    let (bar, head) = (found(BAR, &table(BAR, 3)).1, found(HEAD, &table(HEAD, 3)).1);
+    for (found, name, truth) in
+        [(&bar, "bar.length_drift", 0.020), (&head, "probe.socket_drift_z", -0.030)]
+    {
+        let (rate, u) = value(found, name);
+        assert!(found.verdict.is_good(), "{:?}", found.verdict);
+        assert!((rate - truth).abs() < 4.0 * u && u < 0.4 * truth.abs(), "{name}: {rate} ± {u}");
+    }
+    // A table machine does not turn the tool: there a spindle that grows is a ball that sinks, and no rate of its own.
+    assert!(bar.found.iter().all(|f| !f.name.contains("ball_drift_z")));
 }

@@ -94,8 +94,14 @@ pub(super) fn head(
 fn lasting(found: &Identification, rows: DMatrix<f64>) -> DMatrix<f64> {
     let ends = |k: &usize| match found.design.unknown(*k) {
         Some(Unknown::Setup(instrument, unknown)) => {
-            let moves = matches!(unknown.error, SetupError::ReferencePoint(_));
-            unknown.error.is_rate() || moves && instrument.has_rate()
+            let drifts =
+                |rate: fn(SetupError) -> bool| instrument.unknowns.iter().any(|u| rate(u.error));
+            match unknown.error {
+                SetupError::ReferencePoint(_) => drifts(|e| matches!(e, SetupError::Drift(_))),
+                SetupError::Zero(_) => drifts(|e| e == SetupError::ZeroDrift),
+                SetupError::ToolPoint(2) => drifts(|e| e == SetupError::ToolDrift),
+                error => error.is_rate(),
+            }
         }
         _ => false,
     };

@@ -363,7 +363,7 @@ fn tell_missing(
     let key = match unknown.error {
         SetupError::Zero(_) => format!("zero = {{ of = {:?}, … }}", instrument.name),
         SetupError::ReferencePoint(_) => format!("ball = {{ of = {:?}, … }}", instrument.name),
-        SetupError::Drift(_) => {
+        error if error.is_rate() => {
             format!("values = {{ {:?} = \"0 ± 1 um/h\" }}", sequence.names[*first])
         }
         _ => format!("values = {{ {:?} = \"0 ± 1 um\" }}", sequence.names[*first]),

@@ -1,11 +1,12 @@
 //! How an instrument drifts against the tool while it reads.
 //!
 //! ```text
-//!     Q(t) = Q + R d (t − t₀)                                             docs/model.md eq. 307
+//!     Q(t) = Q + R d (t − t₀)     z(t) = z + ż (t − t₀)     P(t) = P + (0 0 g) (t − t₀)     docs/model.md eq. 307
 //! ```
 //!
 //! d along X, Y, Z of the machine, R the nominal attitude of the machine as the reference sees it, t₀ the first reading
-//! of the instrument: where a machine, its table and a ball on it expand, they do it along the axes of the machine.
+//! of the instrument: where a machine, its table and a ball on it expand, they do it along the axes of the machine. z the
+//! zero of a distance (the length of a bar), g along z of the tool: a spindle expands along itself.
 
 use super::Readings;
 use super::instrument::Instrument;
@@ -39,6 +40,15 @@ pub struct Drift {
     pub from_s: f64,
 }
 
+/// How far drifts of 1 by the hour have gone at a reading.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Drifted {
+    /// Along each axis of the machine, in the frame of the reference, h.
+    pub along_axes: Mat3,
+    /// Since the first reading of the instrument, h.
+    pub hours: f64,
+}
+
 impl Instrument {
     /// Whether a rate is among its unknowns.
     pub fn has_rate(&self) -> bool {
@@ -50,13 +60,13 @@ impl Instrument {
         self.has_rate() || self.drift.walk == Walk::Always
     }
 
-    /// R (t − t₀) in hours; 0 without a rate among its unknowns.
-    pub fn drifted(&self, machine: &Machine, command: &Command, time_s: f64) -> Mat3 {
+    /// R (t − t₀) and t − t₀ in hours; 0 without a rate among its unknowns.
+    pub fn drifted(&self, machine: &Machine, command: &Command, time_s: f64) -> Drifted {
         if !self.has_rate() {
-            return Mat3::zeros();
+            return Drifted::default();
         }
         let hours = (time_s - self.drift.from_s) / HOUR_S;
-        match self.reference {
+        let along_axes = match self.reference {
             Reference::Bed => Mat3::identity() * hours,
             Reference::Workpiece => {
                 let none = ErrorValues::default();
@@ -64,7 +74,8 @@ impl Instrument {
                 let on_bed = machine.tool_on_bed(command, &none).linear().into_owned();
                 from_tool * on_bed.transpose() * hours
             }
-        }
+        };
+        Drifted { along_axes, hours }
     }
 }
 

@@ -9,7 +9,7 @@
 //! ```
 
 use super::Kind;
-use super::drift::Drift;
+use super::drift::{Drift, Drifted};
 use super::element::{Element, across};
 use super::material::MaterialCompensation;
 use nalgebra::Rotation3;
@@ -75,6 +75,10 @@ pub enum SetupError {
     Material,
     /// The instrument drifts along (an angle: about) X, Y, Z of the machine against the tool, mm/h or rad/h.
     Drift(usize),
+    /// The zero of a distance drifts, mm/h: a bar that grows longer, a dead path.
+    ZeroDrift,
+    /// The tool point drifts along z of the tool, mm/h: a spindle that grows is negative.
+    ToolDrift,
 }
 
 impl SetupError {
@@ -85,7 +89,7 @@ impl SetupError {
 
     /// Whether it grows with time: a rate by the hour.
     pub fn is_rate(self) -> bool {
-        matches!(self, Self::Drift(_))
+        matches!(self, Self::Drift(_) | Self::ZeroDrift | Self::ToolDrift)
     }
 }
 
@@ -169,8 +173,8 @@ pub struct View {
     pub actual: Link,
     /// n, a unit vector in the frame of the reference.
     pub direction: Vec3,
-    /// How far a drift of 1 by the hour along each axis of the machine has gone, in the frame of the reference, h.
-    pub drifted: Mat3,
+    /// How far drifts of 1 by the hour have gone.
+    pub drifted: Drifted,
 }
 
 /// How a reading follows a small motion of the tool: force and moment on the twist.
@@ -200,6 +204,8 @@ pub(crate) struct Setup {
     scale: f64,
     material: f64,
     drift_per_h: Vec3,
+    zero_per_h: f64,
+    tool_per_h: f64,
 }
 
 impl Default for Setup {
@@ -213,6 +219,8 @@ impl Default for Setup {
             scale: 0.0,
             material: 0.0,
             drift_per_h: Vec3::zeros(),
+            zero_per_h: 0.0,
+            tool_per_h: 0.0,
         }
     }
 }
@@ -249,7 +257,7 @@ impl Instrument {
     ) -> View {
         let nominal = self.tool_seen(machine, command, &ErrorValues::default());
         let actual = self.tool_seen(machine, command, errors);
-        View { nominal, actual, direction, drifted: Mat3::zeros() }
+        View { nominal, actual, direction, drifted: Drifted::default() }
     }
 
     /// reference_from_tool at a command of a machine with these errors.
@@ -307,9 +315,10 @@ impl Instrument {
     /// The reading before any material is taken into account.
     fn counted(&self, view: &View, setup: &Setup) -> [f64; 3] {
         let seen_by_instrument = setup.instrument_from_reference * view.actual;
-        let p = seen_by_instrument.linear() * (self.tool_point_mm + setup.tool_point_mm)
+        let grown = Vec3::new(0.0, 0.0, setup.tool_per_h * view.drifted.hours);
+        let p = seen_by_instrument.linear() * (self.tool_point_mm + setup.tool_point_mm + grown)
             + seen_by_instrument.shift_mm();
-        let drifted = view.drifted * setup.drift_per_h;
+        let drifted = view.drifted.along_axes * setup.drift_per_h;
         let from_q = match self.sight.is_angle() {
             true => p - self.reference_point_mm,
             false => p - drifted - self.reference_point_mm,
@@ -321,7 +330,10 @@ impl Instrument {
             }
             Sight::ProbeOffset => (seen_by_instrument.linear().transpose() * -from_q).into(),
             Sight::Place => from_q.into(),
-            Sight::Distance => [from_q.norm(), 0.0, 0.0],
+            Sight::Distance => {
+                let zero = setup.zero_per_h * view.drifted.hours;
+                [from_q.norm() + zero, 0.0, 0.0]
+            }
             Sight::Along => [view.direction.dot(&from_q), 0.0, 0.0],
             Sight::Turn => {
                 let turn = seen_by_instrument.linear() * view.nominal.linear().transpose();
@@ -418,9 +430,17 @@ impl Instrument {
             }
             SetupError::Material => -self.material_length(view),
             SetupError::Drift(i) if self.sight == Sight::Turn => {
-                -wrench.moment.dot(&view.drifted.column(i))
+                -wrench.moment.dot(&view.drifted.along_axes.column(i))
             }
-            SetupError::Drift(i) => -wrench.force.dot(&view.drifted.column(i)),
+            SetupError::Drift(i) => -wrench.force.dot(&view.drifted.along_axes.column(i)),
+            SetupError::ZeroDrift if self.sight == Sight::Distance => {
+                self.zero_sign() * view.drifted.hours
+            }
+            SetupError::ZeroDrift => 0.0,
+            SetupError::ToolDrift => {
+                let along = SetupError::ToolPoint(2);
+                self.setup_slope(along, channel, wrench, view) * view.drifted.hours
+            }
         }
     }
 
@@ -444,6 +464,8 @@ impl Instrument {
                 SetupError::Scale => setup.scale += value,
                 SetupError::Material => setup.material += value,
                 SetupError::Drift(i) => setup.drift_per_h[i] += value,
+                SetupError::ZeroDrift => setup.zero_per_h += self.zero_sign() * value,
+                SetupError::ToolDrift => setup.tool_per_h += value,
             }
         }
         setup.instrument_from_reference = displaced_by(&displaced).inverse();
@@ -485,7 +507,7 @@ mod tests {
         // The tool 100 mm above (10 0 0), tip 3 µm too far in X: the ball is 3 µm to the left.
         let nominal = Link::shift(Vec3::new(10.0, 0.0, 100.0));
         let actual = Link::shift(Vec3::new(10.003, 0.0, 100.0));
-        let view = View { nominal, actual, direction: Vec3::x(), drifted: Mat3::zeros() };
+        let view = View { nominal, actual, direction: Vec3::x(), drifted: Drifted::default() };
         let [x, y, z] = instrument(Sight::ProbeOffset).read(&view, &[]);
         assert!((x + 0.003).abs() < 1e-12 && y == 0.0 && z.abs() < 1e-12);
         assert!((instrument(Sight::Along).read(&view, &[])[0] - 0.003).abs() < 1e-12);
@@ -498,14 +520,14 @@ mod tests {
         let turned = Rotation3::from_euler_angles(0.3, -0.4, 0.7).into_inner();
         let nominal = Pose::new(turned, Vec3::new(160.0, -40.0, 95.0));
         let direction = Vec3::new(0.36, 0.48, 0.8);
-        let drifted = Mat3::from_diagonal_element(0.7);
+        let drifted = Drifted { along_axes: Mat3::from_diagonal_element(0.7), hours: 0.7 };
         let view = View { nominal, actual: nominal, direction, drifted };
         let errors = (0..3)
             .flat_map(|i| {
                 use SetupError::{Drift, ReferencePoint, ReferenceTurn, ToolPoint, Zero};
                 [ToolPoint(i), ReferencePoint(i), ReferenceTurn(i), Zero(i), Drift(i)]
             })
-            .chain([SetupError::Scale]);
+            .chain([SetupError::Scale, SetupError::ZeroDrift, SetupError::ToolDrift]);
         let errors: Vec<SetupError> = errors.collect();
         for sight in [Sight::ProbeOffset, Sight::Place, Sight::Distance, Sight::Along, Sight::Turn]
         {
@@ -531,7 +553,8 @@ mod tests {
     #[test]
     fn a_longer_bar_reads_more_by_as_much() {
         let nominal = Link::shift(Vec3::new(160.0, 0.0, 100.0));
-        let view = View { nominal, actual: nominal, direction: Vec3::x(), drifted: Mat3::zeros() };
+        let view =
+            View { nominal, actual: nominal, direction: Vec3::x(), drifted: Drifted::default() };
         let mut bar = instrument(Sight::Distance);
         bar.unknowns =
             vec![SetupUnknown { name: "length".into(), error: SetupError::Zero(0), prior_u: None }];

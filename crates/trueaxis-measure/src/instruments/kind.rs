@@ -230,6 +230,8 @@ impl Kind {
             SetupError::Scale => "scale".to_owned(),
             SetupError::Material => "material".to_owned(),
             SetupError::Drift(i) => format!("drift_{}", axis(i)),
+            SetupError::ZeroDrift => format!("{}_drift", self.zero()),
+            SetupError::ToolDrift => format!("{}_drift_z", self.tool_point()),
         }
     }
 }

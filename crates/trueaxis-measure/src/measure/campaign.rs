@@ -373,7 +373,7 @@ fn read_instrument(
     let (mut unknowns, walk) = match section.get("unknown") {
         None => (kind.usual_setup(), Walk::default()),
         Some(item) => {
-            item.section(&section.path("unknown"), |s| read_unknowns(s, kind, towards))?
+            item.section(&section.path("unknown"), |s| read_unknowns(s, kind, towards, machine))?
         }
     };
     let material = material?;
@@ -502,8 +502,13 @@ pub fn readings_file(instrument: &str) -> String {
 }
 
 /// `unknown` of an instrument; where nothing but a drift is stated the usual ones remain.
-fn read_unknowns(section: &Section<'_>, kind: Kind, direction: Vec3) -> (Vec<SetupUnknown>, Walk) {
-    let drift = section.get("drift").map(|i| read_drift(&i, kind, direction));
+fn read_unknowns(
+    section: &Section<'_>,
+    kind: Kind,
+    direction: Vec3,
+    machine: &Machine,
+) -> (Vec<SetupUnknown>, Walk) {
+    let drift = section.get("drift").map(|i| read_drift(&i, kind, direction, machine));
     let alone = drift.is_some() && section.entries().iter().all(|(key, ..)| *key == "drift");
     let mut unknowns = if alone { kind.usual_setup() } else { read_setup(section, kind) };
     let StatedDrift { rates, walk } = drift.unwrap_or_default();

@@ -6,6 +6,9 @@ use crate::instruments::drift::Walk;
 use crate::instruments::instrument::{Instrument, SetupError, SetupUnknown, Sight};
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{Diagnostics, Dimension, Item, Place};
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::Command;
+use trueaxis_machine::errors::ErrorValues;
 
 /// A drift of a set-up as the campaign states it.
 #[derive(Debug, Default)]
@@ -17,7 +20,15 @@ pub(super) struct StatedDrift {
 }
 
 /// `"free"`, the standard uncertainty with which the rate is known to be 0 (`"5 um/h"`), `"walk"` or `"none"`.
-pub(super) fn read_drift(item: &Item<'_>, kind: Kind, direction: Vec3) -> StatedDrift {
+///
+/// What drifts: the instrument along the axes of the machine; the zero of a distance; and where a head turns the tool, so
+/// that it shows, the tool point along the tool.
+pub(super) fn read_drift(
+    item: &Item<'_>,
+    kind: Kind,
+    direction: Vec3,
+    machine: &Machine,
+) -> StatedDrift {
     let dimension = match kind.sight().is_angle() {
         true => Dimension::AngularVelocity,
         false => Dimension::Velocity,
@@ -44,11 +55,31 @@ pub(super) fn read_drift(item: &Item<'_>, kind: Kind, direction: Vec3) -> Stated
         Sight::Along | Sight::Turn => direction[*i].abs() > 1e-6,
         Sight::ProbeOffset | Sight::Place | Sight::Distance | Sight::Element(_) => true,
     };
-    let rate = |i: usize| {
-        let error = SetupError::Drift(i);
-        SetupUnknown { name: kind.unknown_name(error), error, prior_u }
+    let zero = (kind.sight() == Sight::Distance).then_some(SetupError::ZeroDrift);
+    let tool = (sees_growth(kind) && head_turns(machine)).then_some(SetupError::ToolDrift);
+    let errors = (0..3).filter(sees).map(SetupError::Drift).chain(zero).chain(tool);
+    let rate = |error| SetupUnknown { name: kind.unknown_name(error), error, prior_u };
+    StatedDrift { rates: errors.map(rate).collect(), walk: Walk::default() }
+}
+
+/// Whether it reads a place of the tool point in several directions: along one alone a growth of the tool is a drift of the
+/// instrument.
+fn sees_growth(kind: Kind) -> bool {
+    matches!(kind.sight(), Sight::ProbeOffset | Sight::Place | Sight::Distance)
+}
+
+/// Whether the direction of the tool on the bed changes with an axis.
+fn head_turns(machine: &Machine) -> bool {
+    let along = |command: &Command| {
+        let pose = machine.tool_on_bed(command, &ErrorValues::default());
+        pose.linear().column(2).into_owned()
     };
-    StatedDrift { rates: (0..3).filter(sees).map(rate).collect(), walk: Walk::default() }
+    let at_zero = along(&Command::default());
+    (0..machine.axes().len()).any(|axis| {
+        let mut turned = Command::default();
+        turned[axis] = 0.5; // an angle that is no symmetry of any chain
+        (along(&turned) - at_zero).norm() > 1e-6
+    })
 }
 
 /// A drift needs to know when each row was read.

@@ -127,6 +127,10 @@ fn why(unknowns: &[(Unknown<'_>, f64)]) -> String {
                 SetupError::Scale => format!("the scale of {}", instrument.name),
                 SetupError::Material => format!("the material of {}", instrument.name),
                 SetupError::Drift(_) => format!("the drift of the {point}"),
+                SetupError::ZeroDrift => {
+                    format!("the drift of the {} of {}", instrument.kind.zero(), instrument.name)
+                }
+                SetupError::ToolDrift => format!("the drift of the {tool} along the tool"),
             };
             let what = what.replace('_', " ");
             format!("{what} is not known better than by these readings themselves")

@@ -9,7 +9,6 @@ use super::term::{Basis, legendre};
 use crate::instruments::instrument::{Setup, View, Wrench};
 use crate::instruments::{Instrument, Readings};
 use std::ops::Range;
-use trueaxis_geometry::Mat3;
 use trueaxis_machine::axis::MAX_AXES;
 use trueaxis_machine::batch::{CompiledChain, Frames, GROUP, Group, Station, sines_and_cosines};
 use trueaxis_machine::chain::{CommandFault, Link};
@@ -380,13 +379,8 @@ impl<'a> Groups<'a> {
 
     fn view(&self, instrument: &Instrument, i: usize, nominal: Link, actual: Link) -> View {
         let readings = self.readings;
-        let drifted = match instrument.has_rate() {
-            true => {
-                let machine = &self.design.machine;
-                instrument.drifted(machine, &readings.commands[i], readings.times_s[i])
-            }
-            false => Mat3::zeros(),
-        };
+        let machine = &self.design.machine;
+        let drifted = instrument.drifted(machine, &readings.commands[i], readings.times_s[i]);
         View { nominal, actual, direction: readings.directions[i], drifted }
     }
 }

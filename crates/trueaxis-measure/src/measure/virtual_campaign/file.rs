@@ -1,7 +1,7 @@
 //! `[truth]` and `[disturb]` of a campaign file.
 
 use super::{AxisDisturb, Chance, Disturb, Drawn, Truth, VirtualCampaign, chance, normal};
-use crate::instruments::instrument::{Instrument, SetupError, SetupUnknown};
+use crate::instruments::instrument::{Instrument, SetupError, SetupUnknown, Sight};
 use crate::measure::path::{Path, read_paths};
 use crate::measure::{Campaign, Kind};
 use std::f64::consts::PI;
@@ -212,6 +212,9 @@ fn possible(instrument: &Instrument) -> Vec<(String, SetupError)> {
     let all = all.chain(zeros).chain([SetupError::Scale]);
     let all = all.chain(instrument.material.is_some().then_some(SetupError::Material));
     let all = all.chain(three.map(SetupError::Drift));
+    let zero = (instrument.sight == Sight::Distance).then_some(SetupError::ZeroDrift);
+    let all =
+        all.chain(zero).chain((!instrument.sight.is_angle()).then_some(SetupError::ToolDrift));
     all.map(|error| (kind.unknown_name(error), error)).collect()
 }
 
@@ -280,7 +283,7 @@ fn read_setup(
     let is_angle = campaign.instruments[of].sight.is_angle();
     let dimension = match error {
         SetupError::Drift(_) if is_angle => Dimension::AngularVelocity,
-        SetupError::Drift(_) => Dimension::Velocity,
+        error if error.is_rate() => Dimension::Velocity,
         SetupError::ReferenceTurn(_)
         | SetupError::Tilt(_)
         | SetupError::Scale
