@@ -3,7 +3,6 @@
 use crate::output::{Answer, Format, Outcome, show, tell};
 use clap::Args;
 use serde_json::Value;
-use trueaxis::Schema;
 
 /// Which document to describe.
 #[derive(Args)]
@@ -25,36 +24,33 @@ pub struct Arguments {
     format: Format,
 }
 
-/// Those of the library, of live runs, of studies of many machines and of new folders, by name.
-fn schemas() -> Vec<(&'static str, Schema)> {
-    let mut all = trueaxis::schemas();
-    all.extend(trueaxis_live::schemas());
-    all.extend(trueaxis_study::schemas());
-    all.extend(trueaxis_templates::schemas());
-    all.sort_by_key(|(name, _)| *name);
-    all
+include!(concat!(env!("OUT_DIR"), "/schemas.rs"));
+
+/// The schemas in docs/schemas by name.
+fn schemas() -> impl Iterator<Item = (&'static str, Value)> {
+    // why: the texts are those of files that a test compares with the types
+    SCHEMAS.iter().map(|(name, text)| (*name, serde_json::from_str(text).unwrap_or_default()))
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    let all = schemas();
     let Some(wanted) = &arguments.name else {
         if arguments.format == Format::Json {
-            let all = all.into_iter().map(|(name, schema)| (name.to_owned(), schema.into()));
+            let all = schemas().map(|(name, schema)| (name.to_owned(), schema));
             return show(&Answer::Json(Value::Object(all.collect())));
         }
-        let width = all.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
-        let line = |schema: &trueaxis::Schema| {
+        let width = SCHEMAS.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+        let line = |schema: &Value| {
             let description = schema.get("description").and_then(|text| text.as_str());
             let first = description.unwrap_or_default().split_inclusive(". ").next();
             first.unwrap_or_default().trim_end().replace('\n', " ")
         };
-        let lines = all.iter().map(|(name, schema)| format!("{name:width$}  {}\n", line(schema)));
+        let lines = schemas().map(|(name, schema)| format!("{name:width$}  {}\n", line(&schema)));
         return show(&Answer::Text(lines.collect()));
     };
-    match all.into_iter().find(|(name, _)| name == wanted) {
-        Some((_, schema)) => show(&Answer::Json(schema.into())),
+    match schemas().find(|(name, _)| name == wanted) {
+        Some((_, schema)) => show(&Answer::Json(schema)),
         None => {
-            let names: Vec<&str> = schemas().iter().map(|(name, _)| *name).collect();
+            let names: Vec<&str> = SCHEMAS.iter().map(|(name, _)| *name).collect();
             let names = names.join(", ");
             tell(&format!("error: unknown document `{wanted}`\n  hint: the documents are {names}"));
             Outcome::Unusable
