@@ -12,14 +12,14 @@ pub mod identify;
 pub mod plan;
 pub mod report;
 
-use report::{
-    HitsDocument, IdentificationDocument, MeasuredToolsDocument, PlanDocument, ProbeDocument,
-    SurfaceDocument, ToolSettingDocument,
-};
-use trueaxis_report::{NamedSchema, named_schema};
-
 /// The JSON Schemas of the documents of this crate, by name; forms of `identify/1` have names of their own.
-pub fn schemas() -> Vec<NamedSchema> {
+#[cfg(feature = "schemas")]
+pub fn schemas() -> Vec<trueaxis_report::NamedSchema> {
+    use report::{
+        HitsDocument, IdentificationDocument, MeasuredToolsDocument, PlanDocument, ProbeDocument,
+        SurfaceDocument, ToolSettingDocument,
+    };
+    use trueaxis_report::named_schema;
     vec![
         named_schema::<IdentificationDocument<'_>>("identify-errors"),
         named_schema::<ProbeDocument<'_>>("identify-probe"),

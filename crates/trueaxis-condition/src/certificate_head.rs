@@ -1,8 +1,8 @@
 //! The head of a certificate as data: number, customer, machine, place, instruments with their certificates.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_input::{Date, Item, Section};
+use trueaxis_report::JsonSchema;
 use trueaxis_report::Table;
 
 /// The head of a certificate.

@@ -1,8 +1,8 @@
 //! A history as text, page and document `trueaxis/history/1`.
 
 use crate::history::{History, Jump, Series};
-use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::numbers::fixed;
 use trueaxis_report::{Band, Picture, Report, Scatter, Section, Standing, Table};
 

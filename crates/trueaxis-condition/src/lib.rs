@@ -16,10 +16,10 @@ pub mod history_report;
 pub mod report;
 pub mod virtual_circle;
 
-use trueaxis_report::{NamedSchema, named_schema};
-
 /// The JSON Schemas of the documents of this crate, by name.
-pub fn schemas() -> Vec<NamedSchema> {
+#[cfg(feature = "schemas")]
+pub fn schemas() -> Vec<trueaxis_report::NamedSchema> {
+    use trueaxis_report::named_schema;
     vec![
         named_schema::<report::EvaluatedDocument<'_>>("evaluate"),
         named_schema::<history_report::HistoryDocument<'_>>("history"),

@@ -1,8 +1,8 @@
 //! A circle as errors of the machine file: as sections of a report and for programs.
 
 use crate::ball_bar::{Compared, MachineErrors, Written};
-use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::numbers::fixed;
 use trueaxis_report::{Section, Table};
 use trueaxis_standards::iso230_4::Cause;

@@ -9,4 +9,5 @@
 pub mod compensate;
 pub mod report;
 
+#[cfg(feature = "schemas")]
 pub use report::schemas;

@@ -20,10 +20,10 @@ pub use program_document::ProgramDocument;
 pub use tables::{PartWithTables, TablesReport, tables_report};
 pub use tables_document::TablesDocument;
 
-use trueaxis_report::{NamedSchema, named_schema};
-
 /// The JSON Schemas of the documents.
-pub fn schemas() -> Vec<NamedSchema> {
+#[cfg(feature = "schemas")]
+pub fn schemas() -> Vec<trueaxis_report::NamedSchema> {
+    use trueaxis_report::named_schema;
     vec![
         named_schema::<CompensationDocument>("compensate"),
         named_schema::<TablesDocument>("compensate-tables"),

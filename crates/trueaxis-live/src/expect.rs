@@ -18,7 +18,6 @@ use crate::file::{AxisPlan, Plan, SensorPlan, Source, read_plan};
 use crate::line::Line;
 use crate::model::{LiveAxis, Model, at, remembered};
 use losses::{Day, HOUR_S, TEN_MINUTES_S};
-use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -28,6 +27,7 @@ use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{AxisKind, Command};
 use trueaxis::machine::heat::{TemperatureLog, ThermalMemory};
 use trueaxis::questions::{Question, Tell};
+use trueaxis_report::JsonSchema;
 
 /// Places on the travel of an axis.
 const PLACES: f64 = 20.0;

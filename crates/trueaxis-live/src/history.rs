@@ -5,10 +5,10 @@ use crate::file::Plan;
 use crate::run::Cycle;
 use crate::status::{LiveState, is_linear};
 use crate::store::history_lines;
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 use std::path::Path;
+use trueaxis_report::JsonSchema;
 
 /// A line is written so often, s.
 pub const HISTORY_S: f64 = 10.0;

@@ -41,10 +41,10 @@ pub mod start;
 pub mod status;
 pub mod store;
 
-use trueaxis_report::{NamedSchema, named_schema};
-
 /// The JSON Schemas of the documents of this crate, by name.
-pub fn schemas() -> Vec<NamedSchema> {
+#[cfg(feature = "schemas")]
+pub fn schemas() -> Vec<trueaxis_report::NamedSchema> {
+    use trueaxis_report::named_schema;
     let mut all = vec![
         named_schema::<expect::LiveExpectDocument>("live-expect"),
         named_schema::<parts::LivePartDocument>("live-part"),

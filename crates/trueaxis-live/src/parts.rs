@@ -3,12 +3,12 @@
 use crate::file::{Plan, read_plan};
 use crate::status::{folder_of, is_linear};
 use crate::store::{part_now, part_path, parts};
-use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 use std::path::PathBuf;
 use trueaxis::input::{CsvTable, Diagnostics, Files, Place};
 use trueaxis::questions::{Answer, Question, Tell, complete};
+use trueaxis_report::JsonSchema;
 use trueaxis_report::numbers::fixed;
 use trueaxis_report::{Report, Section, Table, document};
 

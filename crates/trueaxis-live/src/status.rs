@@ -7,13 +7,13 @@ use crate::governor::{Reason, State};
 use crate::history::{LiveHistory, history};
 use crate::run::{Counts, Cycle};
 use crate::store::{Event, is_running, last_events, last_state, own_folder};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::path::PathBuf;
 use trueaxis::input::{Diagnostics, Files, Place};
 use trueaxis::machine::axis::AxisKind;
 use trueaxis::questions::{Answer, Question, Tell, complete};
+use trueaxis_report::JsonSchema;
 use trueaxis_report::numbers::fixed;
 use trueaxis_report::{Report, Section, Table, document};
 

@@ -9,6 +9,7 @@ pub mod material;
 mod motion;
 mod points;
 mod poses;
+mod rate;
 mod readings;
 
 pub use element::Element;

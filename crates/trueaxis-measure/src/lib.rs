@@ -23,10 +23,10 @@ pub mod measure;
 pub mod report;
 pub mod unknowns;
 
-use report::MeasurementDocument;
-use trueaxis_report::{NamedSchema, named_schema};
-
 /// The JSON Schemas of the documents of this crate, by name.
-pub fn schemas() -> Vec<NamedSchema> {
+#[cfg(feature = "schemas")]
+pub fn schemas() -> Vec<trueaxis_report::NamedSchema> {
+    use report::MeasurementDocument;
+    use trueaxis_report::named_schema;
     vec![named_schema::<MeasurementDocument<'_>>("measure")]
 }

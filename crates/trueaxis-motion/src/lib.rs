@@ -98,11 +98,12 @@ use trueaxis_nc::moves::Step;
 use trueaxis_nc::{
     Follower, KnownPosition, Outcome, Program, Settings, interpret_on, leaves_motion_out,
 };
-use trueaxis_report::{NamedSchema, named_schema};
 use walk::{Leader, Walk, Walked};
 
 /// The JSON Schemas of the documents of this crate, by name.
-pub fn schemas() -> Vec<NamedSchema> {
+#[cfg(feature = "schemas")]
+pub fn schemas() -> Vec<trueaxis_report::NamedSchema> {
+    use trueaxis_report::named_schema;
     vec![named_schema::<report::SimulationDocument<'_>>("simulate")]
 }
 

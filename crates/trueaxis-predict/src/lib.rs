@@ -17,11 +17,11 @@
 pub mod predict;
 pub mod report;
 
-use report::{DrawingDocument, HolesDocument, PredictionDocument};
-use trueaxis_report::{NamedSchema, named_schema};
-
 /// The JSON Schemas of the documents.
-pub fn schemas() -> Vec<NamedSchema> {
+#[cfg(feature = "schemas")]
+pub fn schemas() -> Vec<trueaxis_report::NamedSchema> {
+    use report::{DrawingDocument, HolesDocument, PredictionDocument};
+    use trueaxis_report::named_schema;
     vec![
         named_schema::<PredictionDocument>("predict"),
         named_schema::<HolesDocument>("predict-holes"),

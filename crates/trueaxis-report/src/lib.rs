@@ -21,8 +21,10 @@ mod page;
 mod pictures;
 pub mod plots;
 mod report;
+#[cfg(feature = "schemas")]
+mod schema;
 
-pub use document::{Keyed, NamedSchema, document, named_schema, not_finite};
+pub use document::{Keyed, document, not_finite};
 pub use finite::first_not_finite;
 pub use pictures::{Band, Picture, Polar, PolarLine, Scatter};
 pub use plots::DrawingError;
@@ -30,6 +32,20 @@ pub use report::{
     Columns, English, Figure, Heading, Item, Labels, Language, Logo, LogoKind, Place, Report, Row,
     Section, Standing, Table, Verdict, filled,
 };
+
+#[cfg(feature = "schemas")]
+pub use schema::{NamedSchema, named_schema};
+#[cfg(feature = "schemas")]
+pub use schemars::JsonSchema;
+#[cfg(not(feature = "schemas"))]
+pub use trueaxis_schemaless::JsonSchema;
+
+/// Every type, where no JSON Schemas are made of types.
+#[cfg(not(feature = "schemas"))]
+pub trait JsonSchema {}
+
+#[cfg(not(feature = "schemas"))]
+impl<T: ?Sized> JsonSchema for T {}
 
 /// The version that reports state.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

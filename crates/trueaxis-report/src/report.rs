@@ -26,7 +26,7 @@ pub use section::{Columns, Figure, Item, Place, Section};
 pub use table::{Row, Table};
 
 use crate::DrawingError;
-use schemars::JsonSchema;
+use crate::JsonSchema;
 use serde::Serialize;
 
 /// How a verdict is coloured.

@@ -9,10 +9,10 @@
 pub mod report;
 pub mod rtcp;
 
-use report::RtcpDocument;
-use trueaxis_report::{NamedSchema, named_schema};
-
 /// The JSON Schemas of the documents of this crate, by name.
-pub fn schemas() -> Vec<NamedSchema> {
+#[cfg(feature = "schemas")]
+pub fn schemas() -> Vec<trueaxis_report::NamedSchema> {
+    use report::RtcpDocument;
+    use trueaxis_report::named_schema;
     vec![named_schema::<RtcpDocument<'_>>("identify-rtcp")]
 }

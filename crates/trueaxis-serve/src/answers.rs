@@ -20,8 +20,9 @@ mod simulate_document;
 mod trace;
 mod verify;
 
-use crate::request::{Pace, Question, Request, request_schema, work};
-use trueaxis::report::named_schema;
+use crate::request::{Pace, Question, work};
+#[cfg(feature = "schemas")]
+use {crate::request::Request, crate::schemas::request_schema, trueaxis::report::named_schema};
 
 macro_rules! questions {
     ($($pace:ident $name:literal => $request:ty,)*) => {
@@ -29,6 +30,7 @@ macro_rules! questions {
             name: $name,
             pace: Pace::$pace,
             work: work::<$request>,
+            #[cfg(feature = "schemas")]
             schemas: || [
                 named_schema::<<$request as Request>::Answer<'static>>(concat!("serve-", $name)),
                 request_schema::<$request>(concat!("serve-", $name, "-request")),

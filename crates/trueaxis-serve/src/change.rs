@@ -1,7 +1,7 @@
 //! News of files that were saved.
 
-use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis::JsonSchema;
 
 /// A change of a file; without a path any file may have changed.
 #[derive(Debug, Clone, Default, Serialize, JsonSchema)]

@@ -8,9 +8,9 @@
 //!
 //! Every array begins at a multiple of 8, so the page looks at it in place.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
+use trueaxis::JsonSchema;
 use trueaxis::report::document;
 
 /// Numbers of one kind.

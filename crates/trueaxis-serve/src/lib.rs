@@ -39,12 +39,17 @@ mod places;
 mod project;
 mod refusal;
 mod request;
+#[cfg(feature = "schemas")]
+mod schemas;
 mod sending;
 mod simulated;
 mod socket;
 mod turn;
 mod watch;
 mod web;
+
+#[cfg(feature = "schemas")]
+pub use schemas::schemas;
 
 pub use addresses::Link;
 use desk::Desk;
@@ -58,8 +63,6 @@ use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
-use trueaxis::NamedSchema;
-use trueaxis::report::named_schema;
 
 /// The port where one looks first.
 pub const USUAL_PORT: u16 = 7841;
@@ -69,18 +72,6 @@ const HEAD: Duration = Duration::from_secs(10);
 
 /// How long a reader may take none of what was sent.
 const UNREAD: Duration = Duration::from_secs(30);
-
-/// The JSON Schemas of what the server sends and reads, by name, such as `serve-pose` and `serve-pose-request`;
-/// those of the documents in its answers stand in them, too.
-pub fn schemas() -> Vec<NamedSchema> {
-    let mut all: Vec<NamedSchema> = answers::QUESTIONS.iter().flat_map(|q| (q.schemas)()).collect();
-    all.push(named_schema::<frame::ArrayEntry>("serve-array"));
-    all.push(named_schema::<refusal::RefusedAnswer<'_>>("serve-refused"));
-    all.push(named_schema::<socket::SocketAnswer<'_>>("serve-socket"));
-    all.push(request::request_schema::<socket::SocketRequest>("serve-socket-request"));
-    all.sort_by_key(|(name, _)| *name);
-    all
-}
 
 /// What is shown, and where.
 #[derive(Debug, Clone)]

@@ -3,12 +3,12 @@
 use crate::body::short;
 use crate::refusal::Refusal;
 use crate::watch::Stamps;
-use schemars::JsonSchema;
 use serde::Serialize;
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
+use trueaxis::JsonSchema;
 use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Item, Section, SourceText};
 

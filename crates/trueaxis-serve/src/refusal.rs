@@ -1,7 +1,7 @@
 //! Why a request is not answered: a code for the page, words for the reader.
 
-use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis::JsonSchema;
 use trueaxis::input::{Diagnostic, Diagnostics, Severity};
 use trueaxis::report::DiagnosticEntry;
 

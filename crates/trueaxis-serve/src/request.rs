@@ -4,16 +4,15 @@ use crate::body;
 use crate::desk::{Desk, Job};
 use crate::frame::{Arrays, Frame};
 use crate::refusal::Refusal;
-use schemars::JsonSchema;
-use schemars::generate::SchemaSettings;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::marker::PhantomData;
+use trueaxis::JsonSchema;
 use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Files};
+use trueaxis::questions;
 use trueaxis::report::{DiagnosticEntry, document};
-use trueaxis::{NamedSchema, questions};
 
 /// A request of the page; how it is answered stands with it.
 pub(crate) trait Request: DeserializeOwned + JsonSchema {
@@ -93,16 +92,11 @@ pub(crate) struct Question {
     pub(crate) name: &'static str,
     pub(crate) pace: Pace,
     pub(crate) work: fn(&Desk, Value, &Job) -> Result<Message, Refusal>,
-    pub(crate) schemas: fn() -> [NamedSchema; 2],
+    #[cfg(feature = "schemas")]
+    pub(crate) schemas: fn() -> [trueaxis::NamedSchema; 2],
 }
 
 /// Reads a request of one type and answers it.
 pub(crate) fn work<R: Request>(desk: &Desk, body: Value, job: &Job) -> Result<Message, Refusal> {
     Ok(body::read::<R>(body)?.answer(desk, job)?.message)
-}
-
-/// The JSON Schema of what the server reads, under its name.
-pub(crate) fn request_schema<R: JsonSchema>(name: &'static str) -> NamedSchema {
-    let settings = SchemaSettings::draft2020_12().for_deserialize();
-    (name, settings.into_generator().into_root_schema_for::<R>())
 }

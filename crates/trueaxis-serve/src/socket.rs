@@ -16,12 +16,12 @@ use crate::request::Message as Answer;
 use crate::turn::answer;
 use axum::extract::ws::{Message, WebSocket};
 use futures_util::{SinkExt, StreamExt};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tokio::sync::{broadcast, mpsc};
+use trueaxis::JsonSchema;
 use trueaxis::report::document;
 
 /// What a window sends: a request, or that it no longer waits for one.

@@ -68,11 +68,12 @@ use judge::Decision;
 use trueaxis_input::foreign::Mapping;
 use trueaxis_input::sheet::{self, Cells, Sheet};
 use trueaxis_input::{Diagnostics, Dimension, Place, Unit};
-use trueaxis_report::{NamedSchema, named_schema};
 
 /// The JSON Schemas of the documents of this crate, by name; `evaluate`, which has the errors of a machine file as
 /// well, is one of `trueaxis-condition`.
-pub fn schemas() -> Vec<NamedSchema> {
+#[cfg(feature = "schemas")]
+pub fn schemas() -> Vec<trueaxis_report::NamedSchema> {
+    use trueaxis_report::named_schema;
     vec![named_schema::<report::FormDocument<'_>>("evaluate-form")]
 }
 

@@ -40,10 +40,10 @@ pub use question::{AskStudy, StudyAnswer};
 pub use study::{Requirement, Study};
 pub use table::input_unit;
 
-use report::StudyDocument;
-use trueaxis_report::{NamedSchema, named_schema};
-
 /// The JSON Schemas of the documents.
-pub fn schemas() -> Vec<NamedSchema> {
+#[cfg(feature = "schemas")]
+pub fn schemas() -> Vec<trueaxis_report::NamedSchema> {
+    use report::StudyDocument;
+    use trueaxis_report::named_schema;
     vec![named_schema::<StudyDocument>("study")]
 }

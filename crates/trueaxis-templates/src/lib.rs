@@ -12,9 +12,8 @@ mod answers;
 
 pub use answers::{Answers, Travel, WrongAnswer, machine_file};
 
-use schemars::JsonSchema;
 use serde::Serialize;
-use trueaxis_report::{NamedSchema, named_schema};
+use trueaxis_report::JsonSchema;
 
 /// The kind of machine, by what its rotary axes carry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -130,6 +129,8 @@ pub struct NewFolderDocument<'a> {
 }
 
 /// The JSON Schemas of the documents of this crate, by name.
-pub fn schemas() -> Vec<NamedSchema> {
+#[cfg(feature = "schemas")]
+pub fn schemas() -> Vec<trueaxis_report::NamedSchema> {
+    use trueaxis_report::named_schema;
     vec![named_schema::<NewFolderDocument<'_>>("new")]
 }

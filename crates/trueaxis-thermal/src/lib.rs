@@ -12,10 +12,10 @@ pub mod expansion;
 pub mod report;
 pub mod thermal;
 
-use report::ThermalDocument;
-use trueaxis_report::{NamedSchema, named_schema};
-
 /// The JSON Schemas of the documents of this crate, by name.
-pub fn schemas() -> Vec<NamedSchema> {
+#[cfg(feature = "schemas")]
+pub fn schemas() -> Vec<trueaxis_report::NamedSchema> {
+    use report::ThermalDocument;
+    use trueaxis_report::named_schema;
     vec![named_schema::<ThermalDocument<'_>>("identify-thermal")]
 }

@@ -9,9 +9,9 @@
 //! assert_eq!(found.title(), "An error table does not cover the travel of its axis.");
 //! ```
 
-use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::{Report, Section, Table, document};
 
 /// In the order of the work: what everything shares first.

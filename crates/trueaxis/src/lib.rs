@@ -34,9 +34,11 @@ pub mod explain;
 pub use trueaxis_files as files;
 pub mod questions;
 pub mod report;
+#[cfg(feature = "schemas")]
 mod schemas;
 pub mod verify;
 
+#[cfg(feature = "schemas")]
 pub use schemas::{add_diagnostics, schemas};
 
 pub use trueaxis_calibrate::plan;
@@ -56,7 +58,9 @@ pub use trueaxis_post as post;
 pub use trueaxis_predict::predict;
 pub use trueaxis_writer as writer;
 
-pub use trueaxis_report::{NamedSchema, VERSION};
+#[cfg(feature = "schemas")]
+pub use trueaxis_report::NamedSchema;
+pub use trueaxis_report::{JsonSchema, VERSION};
 
 /// What is the machine like: errors from readings, and how they follow temperatures.
 pub mod identify {
@@ -65,6 +69,7 @@ pub mod identify {
     pub use trueaxis_thermal::{expansion, thermal};
 }
 
+#[cfg(feature = "schemas")]
 /// A JSON Schema.
 pub use schemars::Schema;
 

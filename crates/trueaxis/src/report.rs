@@ -64,9 +64,11 @@ pub use trueaxis_correct::report::*;
 pub use trueaxis_measure::report::*;
 pub use trueaxis_motion::report::*;
 pub use trueaxis_predict::report::*;
+#[cfg(feature = "schemas")]
+pub use trueaxis_report::named_schema;
 pub use trueaxis_report::{
     Band, DrawingError, English, Item, Keyed, Language, Picture, Polar, PolarLine, Report, Scatter,
-    Section, Table, Verdict, document, named_schema, numbers,
+    Section, Table, Verdict, document, numbers,
 };
 pub use trueaxis_rtcp::report::*;
 pub use trueaxis_standards::report::*;

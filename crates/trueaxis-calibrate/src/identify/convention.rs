@@ -8,7 +8,6 @@
 use super::checks::deviations;
 use super::mixed_signs::mixed_rows;
 use nalgebra::DVector;
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_machine::axis::AxisKind;
 use trueaxis_machine::twist::Reference;
@@ -16,6 +15,7 @@ use trueaxis_measure::instruments::instrument::Sight;
 use trueaxis_measure::measure::Readings;
 use trueaxis_measure::unknowns::design::Design;
 use trueaxis_measure::unknowns::fit::Observability;
+use trueaxis_report::JsonSchema;
 
 /// Rows that are tried.
 const SAMPLE: usize = 600;

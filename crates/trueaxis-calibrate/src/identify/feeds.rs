@@ -26,7 +26,7 @@ const LEAST_REPEATS: usize = 10;
 const MOST_NAMED: usize = 3;
 
 /// Readings at one feed.
-#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, trueaxis_report::JsonSchema)]
 pub struct FeedCount {
     /// Feed of the tool against the workpiece, mm/min; 0 standing.
     pub feed_mm_per_min: f64,
@@ -35,7 +35,7 @@ pub struct FeedCount {
 }
 
 /// What lag of one axis cannot be separated from.
-#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, trueaxis_report::JsonSchema)]
 pub struct SharedLag {
     /// `lag Y`.
     pub name: String,
@@ -46,7 +46,7 @@ pub struct SharedLag {
 }
 
 /// An error for which lag passes.
-#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, trueaxis_report::JsonSchema)]
 pub struct PassesFor {
     /// Its name.
     pub name: String,
@@ -57,7 +57,7 @@ pub struct PassesFor {
 }
 
 /// The feeds of a campaign; empty if none is stated.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, trueaxis_report::JsonSchema)]
 pub struct Feeds {
     /// Every feed, the slowest first.
     pub counts: Vec<FeedCount>,

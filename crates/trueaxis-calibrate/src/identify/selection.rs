@@ -13,13 +13,13 @@
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
-use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 use trueaxis_geometry::statistics::SplitMix64;
 use trueaxis_measure::measure::Readings;
 use trueaxis_measure::unknowns::design::Design;
 use trueaxis_measure::unknowns::fit::Observability;
+use trueaxis_report::JsonSchema;
 
 /// Thresholds of z-scores; the first lets nothing in, the last everything.
 pub const THRESHOLDS: [f64; 11] = [f64::INFINITY, 8.0, 6.0, 5.0, 4.5, 4.0, 3.5, 3.0, 2.5, 2.0, 0.0];

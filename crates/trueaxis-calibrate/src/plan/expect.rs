@@ -2,7 +2,6 @@
 
 use super::remedy::remedies;
 use nalgebra::DMatrix;
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_measure::measure::{Campaign, Readings};
 use trueaxis_measure::unknowns::confusion::Confusion;
@@ -10,6 +9,7 @@ use trueaxis_measure::unknowns::design::{Design, Unknown};
 use trueaxis_measure::unknowns::determined::{Determined, members_that_matter};
 use trueaxis_measure::unknowns::fit::{Observability, normal_matrix};
 use trueaxis_measure::unknowns::stated::Stated;
+use trueaxis_report::JsonSchema;
 
 /// How large an error is taken to be where its effect is shown: 10 µm or 10 µrad, in mm and rad.
 pub const USUAL_SIZE: f64 = 0.01;

@@ -1,8 +1,8 @@
 //! Deviations of a surface for programs: `trueaxis/identify-surface/1`.
 
 use crate::identify::surface::{HitsStudy, PointDeviation, SurfaceDeviations};
-use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis_report::JsonSchema;
 
 /// Deviations of a surface from the hits of a probing program.
 #[derive(Debug, Serialize, JsonSchema)]

@@ -10,9 +10,9 @@ use crate::identify::feeds::Feeds;
 use crate::identify::score::Rms;
 use crate::identify::selection::Score;
 use crate::plan::Unobservable;
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_measure::unknowns::fit::Model;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::Keyed;
 
 /// Errors identified from the readings of a campaign.

@@ -3,9 +3,9 @@
 use super::stages::{PlannedStageEntry, planned_entries};
 use crate::plan::program::ProgramCheck;
 use crate::plan::{Chosen, Expectation, Expected, PlanReport, PlannedPath, Seen, Unobservable};
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_measure::unknowns::design::Design;
+use trueaxis_report::JsonSchema;
 
 /// What a campaign will show before anybody measures.
 #[derive(Debug, Serialize, JsonSchema)]

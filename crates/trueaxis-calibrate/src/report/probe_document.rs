@@ -5,9 +5,9 @@ use crate::identify::probe::datums::{
     Eccentricity, XyDatum, ZDatum, eccentricity, xy_datum, z_datum,
 };
 use crate::identify::probe::{Calibration, FreshCheck, Repeats, Score, Spread, Study, TableRow};
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_geometry::Vec3;
+use trueaxis_report::JsonSchema;
 
 /// The calibration of a touch probe.
 #[derive(Debug, Serialize, JsonSchema)]

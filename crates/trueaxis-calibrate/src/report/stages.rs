@@ -2,9 +2,9 @@
 
 use crate::identify::stages::{Sequence, StageResult, Value, probability};
 use crate::plan::StageExpectation;
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_measure::unknowns::design::Design;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::{Section, Table};
 
 /// A value that becomes surer by less than this share is not listed with a stage.

@@ -2,8 +2,8 @@
 
 use crate::plan::program::ProgramCheck;
 use crate::plan::surface::{Pose, SurfaceStudy};
-use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis_report::JsonSchema;
 
 /// A probing path over a surface.
 #[derive(Debug, Serialize, JsonSchema)]

@@ -3,8 +3,8 @@
 use crate::identify::tool_setting::{MeasuredTool, ToolReadings};
 use crate::plan::program::ProgramCheck;
 use crate::plan::tool_setting::{ToolSetting, TouchOf};
-use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis_report::JsonSchema;
 
 /// Touches at a tool setter.
 #[derive(Debug, Serialize, JsonSchema)]

@@ -2,9 +2,9 @@
 
 use super::adapt::{AdaptReport, Spread};
 use crate::compensate::adapt::{MapCell, remaining_wall};
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_geometry::Vec3;
+use trueaxis_report::JsonSchema;
 
 /// A path moved onto a measured blank: `trueaxis/compensate-adapt/1`.
 #[derive(Debug, Serialize, JsonSchema)]

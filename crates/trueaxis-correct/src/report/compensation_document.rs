@@ -2,13 +2,13 @@
 
 use super::compensation::{Units, compensation_warnings, increment, place, units};
 use crate::compensate::values::{Node, ValueTable};
-use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::AxisSide;
 use trueaxis_machine::heat::ErrorPart;
 use trueaxis_predict::predict::holes::Compensation;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::{Keyed, document};
 
 /// Values that the control has to add to its commands: `trueaxis/compensate/1`.

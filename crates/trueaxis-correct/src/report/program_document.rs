@@ -2,9 +2,9 @@
 
 use super::program::ProgramReport;
 use crate::compensate::program::{Largest, Residual};
-use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
+use trueaxis_report::JsonSchema;
 
 /// A program rewritten for the actual machine, with its proof: `trueaxis/compensate-program/1`.
 #[derive(Debug, Serialize, JsonSchema)]

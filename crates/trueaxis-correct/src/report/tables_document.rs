@@ -8,13 +8,13 @@ use crate::compensate::tables::known::MadeKnown;
 use crate::compensate::tables::proof::{ErrorLoss, IndexLeft, Left};
 use crate::compensate::tables::table::{PER_UNIT, count_of};
 use crate::compensate::tables::{LeftOut, Made, What};
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::describe::to_shown;
 use trueaxis_machine::errors::ErrorName;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::Keyed;
 
 /// Tables of one control, and what they leave of the errors: `trueaxis/compensate-tables/1`.

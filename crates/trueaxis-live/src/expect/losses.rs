@@ -8,9 +8,9 @@
 use super::{Column, Errors, Heat, Offsets, column, follow, largest, row, shown};
 use crate::file::{Plan, SensorPlan};
 use crate::model::Model;
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis::machine::heat::TemperatureLog;
+use trueaxis_report::JsonSchema;
 
 pub(super) const TEN_MINUTES_S: f64 = 600.0;
 pub(super) const HOUR_S: f64 = 3600.0;

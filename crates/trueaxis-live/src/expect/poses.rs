@@ -10,7 +10,6 @@ use super::{Column, Heat, column, followed, moments};
 use crate::file::{Plan, SensorPlan};
 use crate::model::Part;
 use crate::pose::{PoseCorrection, turns};
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis::geometry::Vec3;
 use trueaxis::machine::Machine;
@@ -18,6 +17,7 @@ use trueaxis::machine::axis::{Approach, AxisKind, Command, Travel};
 use trueaxis::machine::errors::ErrorValues;
 use trueaxis::machine::heat::TemperatureLog;
 use trueaxis::machine::volume::commands;
+use trueaxis_report::JsonSchema;
 
 /// Poses beside the corners of the travel.
 const POSES: u32 = 40;

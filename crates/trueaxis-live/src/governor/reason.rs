@@ -1,8 +1,8 @@
 //! States of the governor, and the reason for each.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use trueaxis_report::JsonSchema;
 
 /// The state of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

@@ -2,8 +2,8 @@
 
 use super::measurement::MeasuredReport;
 use crate::measure::virtual_campaign::{ChannelSummary, shown_unit};
-use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::Keyed;
 
 /// The readings of a virtual machine.

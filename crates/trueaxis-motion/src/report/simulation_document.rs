@@ -4,8 +4,8 @@ use super::simulation::{Simulation, control_name, issue_code, issue_text, verdic
 use super::stock::StockEntry;
 use super::tool_states::ToolStateEntry;
 use crate::{AxisUse, Drift, Issue, IssueKind, Reversal, Worst, shown, tool_standings, unit};
-use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::{Keyed, Verdict};
 
 /// A simulation of a program on a machine: `trueaxis/simulate/1`.

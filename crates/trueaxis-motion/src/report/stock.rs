@@ -2,9 +2,9 @@
 
 use super::simulation::{Simulation, clock};
 use crate::{BlockUse, Machined};
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_nc::moves::Origin;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::{Section, Table};
 
 /// Blocks in the table, those that remove most.

@@ -2,9 +2,9 @@
 
 use crate::tool_check::shown as life_shown;
 use crate::{LifeBy, SetUp, Summary, ToolStanding, tool_standings};
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_machine::Machine;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::{Section, Table};
 
 /// Wear, breakage and life of the tools, where the set-up states them.

@@ -6,9 +6,9 @@ use crate::predict::drawing::{
     Compensated, CompensatedPart, CutPoint, Drawn, ManyParts, PartPrediction, PartStudy, PartValue,
     PointEffect, effects,
 };
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_part::part::{Characteristic, Feature};
+use trueaxis_report::JsonSchema;
 
 /// Errors that are listed for a characteristic.
 const MOST_ERRORS: usize = 10;

@@ -1,9 +1,9 @@
 //! The document of a prediction for holes.
 
 use crate::predict::holes::{Hole, HolePrediction, HoleSet, HoleStudy};
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_geometry::Vec3;
+use trueaxis_report::JsonSchema;
 
 /// Holes before they are made, under each compensation: `trueaxis/predict/1`.
 #[derive(Debug, Serialize, JsonSchema)]

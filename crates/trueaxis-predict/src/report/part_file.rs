@@ -1,10 +1,10 @@
 //! A part file, or a draft of one, as a document and as a report.
 
 use super::drawing::allowed;
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_part::part::{Characteristic, Feature, Part};
 use trueaxis_part::qif;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::{Report, Section, Standing, Table};
 
 /// A part file or a draft of one: `trueaxis/part/1`.

@@ -5,13 +5,13 @@ use crate::predict::{
     ConditionResult, Correction, Index, Prediction, SectionResult, Sensitivity, Share, Spread,
     Study,
 };
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_machine::axis::{Axis, Command};
 use trueaxis_machine::describe::shown;
 use trueaxis_machine::errors::ErrorKind;
 use trueaxis_part::testpiece::IndexName;
 use trueaxis_part::tolerance::Judgement;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::Keyed;
 
 /// A test piece before it is cut: `trueaxis/predict/1`.

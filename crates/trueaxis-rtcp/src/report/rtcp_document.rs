@@ -4,8 +4,8 @@ use super::rtcp::{RtcpReport, is_known};
 use crate::rtcp::forecast::{Forecast, Strays};
 use crate::rtcp::screen::{ScreenField, screen};
 use crate::rtcp::{AngleError, NewSlot, Offset, Segments, Unseen, WorstReading};
-use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::Keyed;
 
 /// An RTCP calibration.

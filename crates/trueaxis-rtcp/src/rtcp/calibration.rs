@@ -3,10 +3,10 @@
 use super::angles::AngleError;
 use super::control::Slot;
 use nalgebra::DMatrix;
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_calibrate::identify::errors::{BELOW_NOISE, LEAST_FREEDOM};
 use trueaxis_input::Place;
+use trueaxis_report::JsonSchema;
 
 /// A combination of offsets that changes no reading.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]

@@ -7,10 +7,10 @@ use crate::frame::Array;
 use crate::made::{MadeEntry, versions};
 use crate::refusal::{Refusal, entries};
 use crate::request::{Reply, Request, ask};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
+use trueaxis::JsonSchema;
 use trueaxis::compensate::program::{Proof, Rewritten};
 use trueaxis::compensate::tables::Target;
 use trueaxis::files;
@@ -21,9 +21,7 @@ use trueaxis::questions::{
     Adapt, Answer, CompensateProgram, CompensateTables, CompensateValues, MachineChoice, Question,
     ValuesForm,
 };
-use trueaxis::report::{
-    AdaptDocument, CompensationDocument, DiagnosticEntry, ProgramDocument, TablesDocument,
-};
+use trueaxis::report::DiagnosticEntry;
 use trueaxis::simulate::control_named;
 
 /// Changed lines that go to the page.
@@ -62,7 +60,7 @@ pub(super) struct CompensateProgramRequest {
 #[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct CompensateProgramAnswer<'a> {
     /// The document of `trueaxis compensate program`.
-    #[schemars(with = "ProgramDocument<'a>")]
+    #[schemars(with = "trueaxis::report::ProgramDocument<'a>")]
     document: Value,
     /// Its report.
     shown: ShownEntry,
@@ -279,7 +277,7 @@ pub(super) struct CompensateTablesRequest {
 #[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct CompensateTablesAnswer<'a> {
     /// The document of `trueaxis compensate tables`.
-    #[schemars(with = "TablesDocument<'a>")]
+    #[schemars(with = "trueaxis::report::TablesDocument<'a>")]
     document: Value,
     /// Its report.
     shown: ShownEntry,
@@ -362,7 +360,7 @@ enum CompensatedError {
 #[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct CompensateValuesAnswer<'a> {
     /// The document of `trueaxis compensate values`.
-    #[schemars(with = "CompensationDocument<'a>")]
+    #[schemars(with = "trueaxis::report::CompensationDocument<'a>")]
     document: Value,
     /// Its report.
     shown: ShownEntry,
@@ -415,7 +413,7 @@ pub(super) struct CompensateAdaptRequest {
 #[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct CompensateAdaptAnswer<'a> {
     /// The document of `trueaxis compensate adapt`.
-    #[schemars(with = "AdaptDocument<'a>")]
+    #[schemars(with = "trueaxis::report::AdaptDocument<'a>")]
     document: Value,
     /// Its report.
     shown: ShownEntry,

@@ -4,8 +4,8 @@
 use crate::desk::{Desk, Job};
 use crate::refusal::{Refusal, entries};
 use crate::request::{Diagnosed, Reply, Request, ask};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use trueaxis::JsonSchema;
 use trueaxis_live::status::{LiveStatus, LiveStatusDocument};
 
 /// The state of a live run.

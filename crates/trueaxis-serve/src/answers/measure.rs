@@ -6,10 +6,10 @@ use crate::desk::{Desk, Job};
 use crate::made::{MadeEntry, versions};
 use crate::refusal::{Refusal, entries};
 use crate::request::{Reply, Request, ask};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::path::Path;
+use trueaxis::JsonSchema;
 use trueaxis::files::disk;
 use trueaxis::input::{CsvTable, Diagnostics};
 use trueaxis::machine::axis::AxisKind;
@@ -20,7 +20,7 @@ use trueaxis::measure::virtual_campaign::{
 };
 use trueaxis::measure::{Campaign, Instrument, Readings, read_campaign, readings_file};
 use trueaxis::questions::{Answer, Measure, PlanMeasurement};
-use trueaxis::report::{DiagnosticEntry, MeasurementDocument};
+use trueaxis::report::DiagnosticEntry;
 
 /// Stations of a sheet; more are measured by a program, not by hand.
 const MOST_STATIONS: usize = 20_000;
@@ -337,7 +337,7 @@ pub(super) struct MeasureRequest {
 #[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct MeasureAnswer<'a> {
     /// The document of `trueaxis measure`.
-    #[schemars(with = "MeasurementDocument<'a>")]
+    #[schemars(with = "trueaxis::report::MeasurementDocument<'a>")]
     document: Value,
     /// Its report.
     shown: ShownEntry,

@@ -3,9 +3,9 @@
 use crate::desk::{Desk, Job};
 use crate::refusal::Refusal;
 use crate::request::{Reply, Request};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use trueaxis::JsonSchema;
 use trueaxis_templates::{Answers, Kind, Travel, machine_file};
 
 /// The text of a new machine file; nothing is saved.

@@ -5,9 +5,9 @@ use crate::desk::{Desk, Job};
 use crate::project::{ExampleEntry, FileEntry, version};
 use crate::refusal::{Refusal, entries};
 use crate::request::{Reply, Request};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
+use trueaxis::JsonSchema;
 use trueaxis::files;
 use trueaxis::report::DiagnosticEntry;
 

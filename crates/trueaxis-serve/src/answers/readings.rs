@@ -6,8 +6,8 @@ use crate::refusal::Refusal;
 use crate::request::{Reply, Request};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use trueaxis::JsonSchema;
 use trueaxis::files::{disk, read_bytes};
 use trueaxis::input::Diagnostics;
 use trueaxis::input::foreign::{

@@ -11,11 +11,11 @@ use crate::body::needed;
 use crate::desk::{Desk, Job, KeptReport};
 use crate::refusal::{Refusal, entries};
 use crate::request::{Reply, Request, ask};
-use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::path::PathBuf;
+use trueaxis::JsonSchema;
 use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Place};
 use trueaxis::questions::{

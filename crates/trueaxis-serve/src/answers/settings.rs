@@ -2,9 +2,9 @@
 
 use crate::body::short;
 use crate::refusal::Refusal;
-use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use trueaxis::JsonSchema;
 use trueaxis::input::{Dimension, parse_quantity};
 use trueaxis::machine::errors::ErrorName;
 use trueaxis::predict::ErrorChange;

@@ -1,7 +1,7 @@
 //! The answer of a command as its report shows it: verdict, sentences, tables.
 
-use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis::JsonSchema;
 use trueaxis::questions::Answer;
 use trueaxis::report::{Item, Report, Section, Table, Verdict};
 

@@ -1,8 +1,8 @@
 //! Requests and answers about simulations.
 
 use super::describe::SurfaceEntry;
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use trueaxis::JsonSchema;
 use trueaxis::machine::Machine;
 use trueaxis::report::{DiagnosticEntry, Keyed, SimulationDocument, array, issue_code, issue_text};
 use trueaxis::simulate::{AxisRange, Issue, Moment, QuantityRange, SetUpTool, shown};

@@ -5,18 +5,15 @@ use crate::body::needed;
 use crate::desk::{Desk, Job};
 use crate::refusal::{Refusal, entries};
 use crate::request::{Reply, Request, ask};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::path::PathBuf;
+use trueaxis::JsonSchema;
 use trueaxis::questions::{
     Answer, Certify, CompareCalibrations, LaserBeforeAfter, Question, VerifyHistory, VerifyPart,
     VerifyReadings,
 };
-use trueaxis::report::{
-    BeforeAfterDocument, CertificateDocument, DiagnosticEntry, DiffDocument, HistoryDocument,
-    VerifyDocument, VerifyPartDocument,
-};
+use trueaxis::report::DiagnosticEntry;
 
 /// Verifies.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -63,16 +60,17 @@ pub(super) struct VerifyAnswer<'a> {
 }
 
 /// The documents of `trueaxis verify`, for their schemas.
+#[cfg(feature = "schemas")]
 #[derive(JsonSchema)]
 #[serde(untagged)]
 #[allow(dead_code, clippy::large_enum_variant)]
 enum VerifiedDocument<'a> {
-    Readings(VerifyDocument<'a>),
-    Diff(DiffDocument<'a>),
-    History(HistoryDocument<'a>),
-    Certificate(CertificateDocument<'a>),
-    Laser(BeforeAfterDocument<'a>),
-    Part(VerifyPartDocument<'a>),
+    Readings(trueaxis::report::VerifyDocument<'a>),
+    Diff(trueaxis::report::DiffDocument<'a>),
+    History(trueaxis::report::HistoryDocument<'a>),
+    Certificate(trueaxis::report::CertificateDocument<'a>),
+    Laser(trueaxis::report::BeforeAfterDocument<'a>),
+    Part(trueaxis::report::VerifyPartDocument<'a>),
 }
 
 impl Request for VerifyRequest {

@@ -2,8 +2,8 @@
 
 use super::diagnosis::DiagnosisEntry;
 use crate::iso230_4::{Causes, Circular, PathResult};
-use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::Keyed;
 
 const UM: f64 = 1e3;

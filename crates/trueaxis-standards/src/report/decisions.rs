@@ -3,9 +3,9 @@
 use super::diagnosis::freedom_in_words;
 use super::evaluation::cell;
 use crate::judge::{Decision, Judged, overall};
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_input::Dimension;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::{Keyed, Standing, Table};
 
 /// Figures against their tolerances.

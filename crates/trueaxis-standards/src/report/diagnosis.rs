@@ -3,8 +3,8 @@
 use super::evaluation::cell;
 use crate::coverage::Expanded;
 use crate::iso230_4::{Cause, Circular, Diagnosis, Found};
-use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::Table;
 
 const UM: f64 = 1e3;

@@ -13,9 +13,9 @@ use crate::iso230_2::{
 use crate::iso230_3::{Channel, Drift};
 use crate::iso230_6::{DiagonalResult, Diagonals, SquarenessHint};
 use crate::iso230_7::{ErrorMotion, Rotation};
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_geometry::AxisKind;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::Keyed;
 
 const UM: f64 = 1e3;

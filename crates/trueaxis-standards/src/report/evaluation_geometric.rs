@@ -4,8 +4,8 @@ use super::evaluation::{Contents, cell};
 use crate::conditions::geometry::Kind;
 use crate::iso230_1::{Geometric, Quantity};
 use crate::judge::Decision;
-use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::{Band, Picture, Scatter, Table};
 
 /// A geometric test.

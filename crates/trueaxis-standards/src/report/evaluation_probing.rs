@@ -3,8 +3,8 @@
 use super::evaluation::{Contents, cell};
 use super::evaluation_geometric::word;
 use crate::iso230_10::{Deviations, Probing};
-use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::{Band, Picture, Polar, PolarLine, Scatter, Table};
 
 /// A probing test.

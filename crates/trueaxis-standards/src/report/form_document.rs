@@ -2,9 +2,9 @@
 
 use super::form::FormShown;
 use crate::form::Decision;
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_form::{Proof, Reference, Source};
+use trueaxis_report::JsonSchema;
 
 const UM: f64 = 1e3;
 

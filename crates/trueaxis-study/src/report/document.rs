@@ -6,8 +6,8 @@ use crate::inputs::Input;
 use crate::sensitivity::{GroupShares, Share};
 use crate::study::Study;
 use crate::table::input_unit;
-use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis_report::JsonSchema;
 
 /// Many machines on many days: `trueaxis/study/1`.
 #[derive(Debug, Serialize, JsonSchema)]

@@ -2,8 +2,8 @@
 
 use super::thermal_score::ScoringEntry;
 use crate::thermal::{Coefficient, Logs, Score, Scoring, Term, ThermalModel};
-use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis_report::JsonSchema;
 
 /// A thermal model of one error, from logs of temperatures and displacements.
 #[derive(Debug, Serialize, JsonSchema)]

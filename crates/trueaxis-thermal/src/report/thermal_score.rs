@@ -2,8 +2,8 @@
 
 use super::thermal_document::TermEntry;
 use crate::thermal::{Logs, ScoredLog, Scoring};
-use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::plots::{Curve, Labels, curves};
 use trueaxis_report::{Columns, DrawingError, Figure, Section, Table};
 

@@ -5,7 +5,6 @@ use super::{Answer, NewFile, Question, Tell, with_diagnostics};
 use crate::files::output::Output;
 use crate::report;
 use crate::verify::part::{PartError, PartResult, PartStudy, read_part, verify_part};
-use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 use std::fmt::Write;
@@ -13,6 +12,7 @@ use std::path::PathBuf;
 use trueaxis_input::{Diagnostics, Dimension, Files, Place, parse_quantity};
 use trueaxis_part::tolerance::Outcome;
 use trueaxis_predict::predict::{Study, VirtualPart, cut_virtually, read_study};
+use trueaxis_report::JsonSchema;
 use trueaxis_report::{Report, Section, Table};
 
 /// Measured test pieces against their tolerances and their prediction.

@@ -1,7 +1,6 @@
 //! How are the hits of a touch probe made, and how does the control correct them?
 
 use super::{Answer, NewFile, Question, Tell, in_folder, named_control, with_diagnostics};
-use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 use std::path::PathBuf;
@@ -13,6 +12,7 @@ use trueaxis_calibrate::identify::probe::{
 };
 use trueaxis_input::{Diagnostics, Dimension, Files, Place, parse_quantity};
 use trueaxis_nc::Control;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::{Report, Section, Table};
 
 /// The programs of a study of a probe: the ring, four hits, the plane face.

@@ -1,13 +1,13 @@
 //! How are the readings for the rotary centres taken?
 
 use super::{Answer, NewFile, Question, Tell, in_folder, named_control};
-use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 use std::path::PathBuf;
 use trueaxis_calibrate::plan::{extension, file_name};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_nc::Control;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::{Report, Section, Table, document};
 use trueaxis_rtcp::rtcp::program::{off_poses, program};
 use trueaxis_rtcp::rtcp::{Purpose, RtcpStudy, read_rtcp};

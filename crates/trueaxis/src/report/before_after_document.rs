@@ -2,9 +2,9 @@
 
 use super::before_after::BeforeAfterReport;
 use crate::verify::before_after::{AppliedValues, Curve};
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_measure::instruments::MaterialCompensation;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::Keyed;
 use trueaxis_standards::iso230_2::{Approached, Quantity};
 

@@ -2,10 +2,10 @@
 
 use super::calibrations::CalibrationsReport;
 use crate::verify::calibrations::{ErrorChange, TwoTemperatures};
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_machine::Machine;
 use trueaxis_machine::describe::{shown, unit};
+use trueaxis_report::JsonSchema;
 use trueaxis_report::Keyed;
 
 /// Two calibrations of one machine: which errors have changed.

@@ -7,13 +7,13 @@ use crate::verify::certificate::inputs::Input;
 use crate::verify::certificate::{
     Agreement, Certificate, Circumstances, PoseResult, Study, UncertaintySource, spread,
 };
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_condition::certificate_head::CertificateHead;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Travel;
 use trueaxis_machine::describe::shown;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::Keyed;
 
 /// The certificate of a volumetric compensation.

@@ -3,12 +3,12 @@
 use super::check::{lacks, measurements, shown_unit};
 use super::diagnostic::DiagnosticEntry;
 use super::frames::{FrameEntry, frames};
-use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 use trueaxis_input::Diagnostic;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Axis, AxisSide, Travel};
+use trueaxis_report::JsonSchema;
 use trueaxis_report::numbers::rounded;
 use trueaxis_report::{Keyed, document};
 

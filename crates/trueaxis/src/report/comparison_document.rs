@@ -4,10 +4,10 @@ use super::comparison::rule;
 use crate::verify::compare::{
     Comparison, ComparisonBasis, ComparisonResult, Coverage, Deviation, Summary,
 };
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_measure::instruments::instrument::Instrument;
 use trueaxis_measure::measure::virtual_campaign::shown_unit;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::Keyed;
 
 /// Readings compared with a prediction, or with other readings.

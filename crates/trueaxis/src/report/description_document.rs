@@ -2,7 +2,6 @@
 
 use super::array;
 use super::check_document::TravelEntry;
-use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 use trueaxis_geometry::Vec3;
@@ -14,6 +13,7 @@ use trueaxis_machine::describe::{
 use trueaxis_machine::errors::ErrorKind;
 use trueaxis_machine::models::{Model, Shape};
 use trueaxis_machine::{Machine, ToolAssembly};
+use trueaxis_report::JsonSchema;
 use trueaxis_report::numbers::rounded;
 use trueaxis_report::{Keyed, document};
 

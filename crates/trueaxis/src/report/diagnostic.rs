@@ -1,9 +1,9 @@
 //! Problems as JSON, the same in every document.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 use trueaxis_input::{Diagnostic, Diagnostics};
+use trueaxis_report::JsonSchema;
 use trueaxis_report::document;
 
 /// A problem found in the input.

@@ -1,10 +1,10 @@
 //! The document `trueaxis/identify-tables/1`: error tables from readings.
 
 use crate::verify::error_tables::{ErrorTable, ReferenceLine, Removed, Squareness, TableStudy};
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_machine::describe::to_shown;
 use trueaxis_machine::errors::ErrorName;
+use trueaxis_report::JsonSchema;
 
 /// What was found.
 #[derive(Debug)]

@@ -1,7 +1,7 @@
 //! The document `trueaxis/identify/1` of the expansion of a scale.
 
-use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis_report::JsonSchema;
 use trueaxis_thermal::expansion::{Expansion, GeometricTable, Runs};
 
 /// A scale: its runs, and what was found from them.

@@ -1,12 +1,12 @@
 //! The coordinate systems of a machine in the sense of Jiang et al.: simulation space, part program, nodes, models.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Bed, Body, Pose};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Command;
 use trueaxis_machine::errors::ErrorValues;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::numbers::fixed;
 use trueaxis_report::{Section, Table};
 

@@ -2,9 +2,9 @@
 
 use super::part::{predicted_at, prediction_words, rule};
 use crate::verify::part::{IndexComparison, PartResult, PartSections, PartStudy};
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_part::testpiece::PartSection;
+use trueaxis_report::JsonSchema;
 
 /// Measured test pieces against their tolerances and their prediction.
 #[derive(Debug, Serialize, JsonSchema)]

@@ -1,12 +1,12 @@
 //! The document `trueaxis/pose/1`.
 
 use super::pose::{Bodies, Budget, PoseReport, array, heat_shares};
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Bed, Body, Pose};
 use trueaxis_machine::Deviation;
 use trueaxis_machine::errors::ErrorValues;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::Keyed;
 
 /// The tool at one position of the axes.

@@ -1,9 +1,9 @@
 //! The document `trueaxis/post/1`.
 
 use super::post::PostReport;
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_post::{Largest, PostOptions, Verification};
+use trueaxis_report::JsonSchema;
 
 /// An NC program from cutter locations.
 #[derive(Debug, Serialize, JsonSchema)]

@@ -1,11 +1,11 @@
 //! The document `trueaxis/solve/1`.
 
 use super::trace_document::axes;
-use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 use trueaxis_machine::axis::Command;
 use trueaxis_machine::{Machine, Solutions};
+use trueaxis_report::JsonSchema;
 use trueaxis_report::{Keyed, document};
 
 /// Axis positions for one tool pose.

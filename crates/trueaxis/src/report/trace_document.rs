@@ -4,13 +4,13 @@ use super::pose_document::{
     BodyEntry, DeviationEntry, ShareEntry, ToolEntry, ToolPoseEntry, body_entries, share_entries,
 };
 use super::trace::{TraceReport, event_texts, feed, kind, named_axes, orientation};
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Command;
 use trueaxis_machine::describe::to_shown;
 use trueaxis_motion::TracedNode;
 use trueaxis_nc::moves::Move;
+use trueaxis_report::JsonSchema;
 use trueaxis_report::Keyed;
 
 /// One block of a program through every stage of the simulation.

@@ -1,9 +1,9 @@
 //! The steps before the direction table: eccentricity, Z datum, X and Y datum (Zhang et al. 2023, 2.3.2).
 
 use nalgebra::{Matrix3, Vector3};
-use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_input::MeasuredValue;
+use trueaxis_report::JsonSchema;
 
 /// A dial against the stylus ball while the spindle turns.
 #[derive(Debug, Clone, PartialEq)]
