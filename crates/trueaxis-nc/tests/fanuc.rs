@@ -206,7 +206,9 @@ fn further_offsets_and_tool_lengths_are_set_by_g10() {
     // Machine 5 reads 45 from an origin at −40.
     assert_eq!(path(Axis::X, text, &NoLibrary), [5.0, 45.0]);
     let text = "G10 L10 P2 R120\nG90 G0 G43 H2 Z10\nG49 G91 Z0\nM30\n";
-    // With the length off, the spindle that stood 120 above the tip reads 130.
+    // G49 takes the 120 off the end point: the nose goes to where the tip was.
+    assert_eq!(path(Axis::Z, text, &NoLibrary), [10.0, 10.0]);
+    let text = "G10 L10 P2 R120\nG90 G0 G43 H2 Z10\nG49 Z130\nM30\n";
     assert_eq!(path(Axis::Z, text, &NoLibrary), [10.0, 130.0]);
 }
 

@@ -197,6 +197,18 @@ impl Core<'_> {
         self.warn("unknown-tool-length", tool, at, message, hint);
     }
 
+    /// Warns of a work offset that the set-up file leaves out although it states others.
+    pub fn unknown_offset(&mut self, number: u32, name: impl std::fmt::Display, at: usize) {
+        let stated = &self.settings.work_offsets;
+        if stated.is_empty() || stated.contains_key(&number) {
+            return;
+        }
+        let message = format!("the work offset {name} is not stated: 0 is taken");
+        let hint =
+            "the set-up file states other work offsets: add this one, or correct its name there";
+        self.warn("unknown-work-offset", number, at, message, hint);
+    }
+
     /// Warns of an M function that is not known.
     pub fn unknown_m_code(&mut self, number: f64, at: usize) {
         let message = format!("unknown M function M{number} for this control");

@@ -304,6 +304,7 @@ impl Run<'_> {
         };
         let index = number as u32;
         let frame = self.core.settings.work_offsets.get(&index).copied();
+        self.core.unknown_offset(index, format_args!("{index} (preset)"), at);
         let frame = frame.unwrap_or(Frame::IDENTITY);
         if self.frames.set_preset(frame).is_none() {
             return Err(mistakes::flat_frame(at));

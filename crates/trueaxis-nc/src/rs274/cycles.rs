@@ -61,6 +61,7 @@ impl Hole {
 impl Run<'_> {
     /// A drilling cycle at the place of the axis words, once or L (K on FANUC) times.
     pub(super) fn cycle(&mut self, cycle: Cycle, at: usize) -> Result<(), Fault> {
+        self.modes.length_due = Position::default();
         for letter in *b"ABC" {
             if self.words.look(letter).is_some() {
                 let message = "a rotary axis is programmed in a drilling cycle";

@@ -559,6 +559,7 @@ impl Run<'_> {
 
     /// The program coordinates of a place given in machine coordinates.
     fn machine_target(&mut self) -> Position {
+        self.modes.length_due = Position::default();
         let mut machine = self.frames.machine();
         let mut named = [false; 9];
         for axis in Axis::ALL {

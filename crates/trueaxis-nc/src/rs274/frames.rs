@@ -36,6 +36,15 @@ impl WorkOffset {
     }
 }
 
+/// The code of a work offset by its index.
+pub(super) fn offset_name(index: usize) -> String {
+    match index {
+        0..6 => format!("G{}", 54 + index),
+        6..9 => format!("G59.{}", index - 5),
+        _ => format!("G54.1 P{}", index - 8),
+    }
+}
+
 /// Where the program frame lies in the machine.
 ///
 /// ```text

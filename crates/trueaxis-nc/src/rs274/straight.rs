@@ -19,6 +19,7 @@ impl Run<'_> {
             || !modes.macros.is_empty()
             || modes.transforms.polar.is_some()
             || modes.dynamic.is_on()
+            || modes.length_due != Position::default()
             || !self.core.is_direct()
             || self.core.modes.feed.mode == FeedMode::InverseTime;
         if !lasting || special {

@@ -1,5 +1,6 @@
 //! Tool lengths, work offsets, shifts and reference points.
 
+use super::frames::{WorkOffset, offset_name};
 use super::radius::RADIUS_WEAR;
 use super::{Language, Run, fault};
 use crate::execution::mistakes;
@@ -100,6 +101,9 @@ impl Run<'_> {
     }
 
     pub(super) fn select_offset(&mut self, index: usize, at: usize) {
+        if self.frames.offsets.get(index).is_none_or(|o| *o == WorkOffset::default()) {
+            self.core.unknown_offset(index as u32 + 1, offset_name(index), at);
+        }
         if index == self.frames.active {
             return;
         }
@@ -137,7 +141,21 @@ impl Run<'_> {
                 h as u32
             }
             Some(h) => return Err(mistakes::bad_tool(format_args!("H{h}"), at)),
-            None if self.is_fanuc() => self.modes.length_number.unwrap_or(self.core.modes.tool),
+            None if self.is_fanuc() => match (self.modes.length_number, action) {
+                (Some(number), _) => number,
+                (None, Action::ToolLengthOff) => 0,
+                (None, _) => {
+                    let message = "no H is active: H0, no length, is taken".to_owned();
+                    self.core.warn(
+                        "no-length-number",
+                        0,
+                        at,
+                        message,
+                        "write H with the number of the offset",
+                    );
+                    0
+                }
+            },
             None => self.core.modes.tool,
         };
         let mut length = self.frames.tool;
@@ -172,12 +190,18 @@ impl Run<'_> {
                 self.refuse_with_dynamic_offset("tool-centre-point control", at)?;
             }
             self.modes.vectors = vectors;
+            if on {
+                self.modes.length_due = Position::default();
+            }
             self.core.tool_centre(on);
         }
         Ok(())
     }
 
+    /// Another tool length; the machine stays where it is. On FANUC the change is added to the next word of its axis,
+    /// absolute or incremental.
     pub(super) fn set_tool_length(&mut self, length: Position) {
+        let before = self.frames.position;
         if self.modes.transforms.tilted {
             // The tool stands along Z of the tilted plane.
             let longer = length.minus(&self.frames.tool);
@@ -185,6 +209,10 @@ impl Run<'_> {
             self.frames.tool = length;
         } else {
             self.frames.change(|f| f.tool = length);
+        }
+        if self.is_fanuc() && !self.core.modes.tool_centre {
+            let due = before.minus(&self.frames.position);
+            self.modes.length_due = self.modes.length_due.plus(&due);
         }
         self.core.emit(Event::ToolLength(length));
     }
@@ -213,6 +241,7 @@ impl Run<'_> {
 
     /// G28, G30: by way of the axis words to a reference point; only the named axes go there.
     fn reference(&mut self, index: usize) {
+        self.modes.length_due = Position::default();
         let between = self.target();
         self.step(MoveKind::Rapid, between);
         self.modes.via = Some(between);
@@ -234,6 +263,7 @@ impl Run<'_> {
     /// A rapid of the named axes in machine coordinates, whatever the frames are. Where that is in
     /// the program frame only the machine knows; here it is as if all rotary axes stood at zero.
     pub(super) fn machine_move(&mut self, machine: Position, named: AxisSet) {
+        self.modes.length_due = Position::default();
         let (feed, origin) = (self.core.modes.feed, self.core.origin);
         let coordinates = Coordinates::Machine;
         let rapid = Move::plain(MoveKind::Rapid, machine, named, feed, origin);

@@ -43,6 +43,8 @@ pub(super) struct Modes {
     pub length_code: f64,
     /// The number of that length: H.
     pub length_number: Option<u32>,
+    /// How far the tool length has changed since an axis moved: added to its next incremental word (FANUC).
+    pub length_due: Position,
     pub compensation: CompensationSide,
     pub path: PathControl,
     /// P of G64, mm.
@@ -76,6 +78,7 @@ impl Modes {
             vectors: false,
             length_code: 49.0,
             length_number: None,
+            length_due: Position::default(),
             compensation: CompensationSide::Off,
             path: PathControl::Continuous,
             path_tolerance_mm: 0.0,
@@ -322,6 +325,16 @@ impl Run<'_> {
             (target[a], target[b]) = (place[0], place[1]);
             let rest = Axis::ALL.into_iter().filter(|axis| *axis != a && *axis != b);
             return self.by_words(target, rest, incremental);
+        }
+        let due = std::mem::take(&mut self.modes.length_due);
+        if due != Position::default() {
+            for axis in Axis::ALL {
+                match self.words.axes().contains(axis) {
+                    true if incremental => target[axis] += due[axis],
+                    true => {}
+                    false => self.modes.length_due[axis] = due[axis],
+                }
+            }
         }
         self.by_words(target, Axis::ALL, incremental)
     }

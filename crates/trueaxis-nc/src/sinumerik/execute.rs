@@ -285,6 +285,10 @@ impl Run<'_> {
     }
 
     fn select_offset(&mut self, number: u32, at: usize) -> Result<(), Fault> {
+        if number > 0 && !self.chain.offsets.contains_key(&number) {
+            let code = if number < 5 { 53 + number } else { 500 + number };
+            self.core.unknown_offset(number, format_args!("G{code}"), at);
+        }
         let frame = self.chain.offset(number);
         if !self.chain.change(|c| c.settable = frame) {
             return Err(mistakes::flat_frame(at));

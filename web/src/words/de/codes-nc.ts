@@ -129,6 +129,8 @@ export const codes: Dictionary = {
   "unknown-tool": "Werkzeug unbekannt",
   "unknown-tool-name": "Werkzeugname unbekannt",
   "unknown-tool-length": "Werkzeuglänge unbekannt",
+  "no-length-number": "Werkzeuglänge ohne Nummer",
+  "unknown-work-offset": "Nullpunktverschiebung unbekannt",
   "unknown-cutting-edge": "Schneide ohne eigene Länge",
   "blank-without-corner": "BLK FORM 0.1 fehlt",
   "empty-program": "Programm leer",

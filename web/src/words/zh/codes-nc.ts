@@ -129,6 +129,8 @@ export const codes: Dictionary = {
   "unknown-tool": "未知刀具",
   "unknown-tool-name": "未知刀具名称",
   "unknown-tool-length": "刀具长度未知",
+  "no-length-number": "刀具长度未给补偿号",
+  "unknown-work-offset": "工件坐标系偏置未知",
   "unknown-cutting-edge": "刀沿无单独长度",
   "blank-without-corner": "缺少 BLK FORM 0.1",
   "empty-program": "程序为空",
