@@ -13682,6 +13682,10 @@ export interface ServeSimulateRequest {
    * Whether collisions are looked for; true if it is left out.
    */
   collisions?: boolean | null;
+  /**
+   * Whether blocks with `/` are executed, as with the switch of the control off; true if it is left out.
+   */
+  optional_blocks?: boolean | null;
 }
 /**
  * A simulation. Array: `corners_mm` (f32: the corners of the triangles of `on_workpiece`, nine numbers each).
@@ -14754,6 +14758,10 @@ export interface ServeTraceRequest {
    * Its text.
    */
   text?: string | null;
+  /**
+   * Whether blocks with `/` are executed, as with the switch of the control off; true if it is left out.
+   */
+  optional_blocks?: boolean | null;
   /**
    * The line of the block, from 1.
    */

@@ -349,6 +349,33 @@ async function drop(page, name, text) {
   );
 }
 
+test("optional blocks: executed at first, left out by choice, as the command line does", async () => {
+  const { page, complaints, context } = await open(browser, server.address);
+  await page.goto(`${server.address}#simulate?machine=${engraver}`);
+  await page.waitForSelector('[data-choice="program"]');
+  const folder = mkdtempSync(path.join(os.tmpdir(), "trueaxis-optional-"));
+  const file = path.join(folder, "marked.nc");
+  const text = "G21 G90 G94\nG1 X5. F800\n/ G1 Y60.\nG1 X20.\nM30\n";
+  writeFileSync(file, text);
+  const [all, part] = await Promise.all(
+    [[], ["--without-optional"]].map((words) => cli("simulate", engraver, file, "--control", "fanuc", ...words)),
+  );
+  assert.ok(all.time_s > part.time_s + 1);
+  await drop(page, "marked.nc", text);
+  await simulated(page);
+  await summaryIsThatOf(page, all);
+  await page.selectOption('[data-choice="optional"]', "off");
+  await page.waitForFunction(
+    (words) => document.querySelector('[data-test="time"]')?.textContent.startsWith(words),
+    clock(part.time_s),
+  );
+  await summaryIsThatOf(page, part);
+  assert.match(page.url(), /optional=off/);
+  rmSync(folder, { recursive: true, force: true });
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
 test("a dropped program: its errors underlined, then a good one", async () => {
   const { page, complaints, context } = await open(browser, server.address);
   await page.goto(`${server.address}#simulate?machine=${engraver}`);

@@ -184,6 +184,28 @@ fn oracle_solve_as_json() {
     assert!(found, "{}", text.out);
 }
 
+/// Upright every angle of C does; where its travel leaves 0 out, it stands at the end next to 0.
+#[test]
+fn a_singular_pose_lies_within_the_travel() {
+    let folder = Folder::new("solve-singular");
+    let machine = folder.file(
+        "m.toml",
+        "[machine]\nname = \"m\"\nchain = \"w b X Y Z C A t\"\n[axis.A]\ntravel = [\"-100 deg\", \"100 deg\"]\n\
+         [axis.C]\ntravel = [\"10 deg\", \"90 deg\"]\n[tool]\nlength = \"10 mm\"\n",
+    );
+    let target = ["--tip", "0 0 0", "--axis", "0 0 1", "--format", "json"];
+    let ran = trueaxis(&[&["solve", machine.as_str()], &target[..]].concat());
+    let document = ran.json();
+    let axes = &document["solutions"][0]["axes"];
+    near(&[number(&axes["C"]), number(&axes["A"])], &[10.0, 0.0], 1e-9);
+    assert_eq!(
+        (ran.status, &document["solutions"][0]["within_limits"]),
+        (0, &true.into()),
+        "{}",
+        ran.err
+    );
+}
+
 #[test]
 fn a_singular_pose_keeps_the_last_angle() {
     let target = ["--tip", "0 0 0", "--axis", "0 0 1", "--from", "C=33 A=5"];

@@ -435,6 +435,22 @@ fn a_move_that_is_longer_than_any_machine_is_refused_with_its_block() {
     assert!(!ran.err.contains("outside-travel"), "{}", ran.err);
 }
 
+/// A block that leaves the travel is traced, and that no error is known there is said; so is a block number that stands twice.
+#[test]
+fn a_trace_says_what_is_not_known_and_which_block_it_shows() {
+    let folder = Folder::new("trace-far");
+    let text = "G21 G17 G90 G94\nN10 G0 X0 Y0 Z-10\nN20 G1 X1010. F600\nN10 G1 X20.\nM30\n";
+    let program = folder.file("p.nc", text);
+    let traced =
+        |block: &str| run(&["trace", MILL, &program, "--control", "fanuc", "--block", block], &[]);
+    let ran = traced("20");
+    let said = ["warning[deviation-outside-travel]", "p.nc:3:1", "X goes to 1010.000 mm"];
+    assert!(ran.status == 0 && said.iter().all(|words| ran.err.contains(words)), "{}", ran.err);
+    let ran = traced("10");
+    assert!(ran.err.contains("stands in the lines 2, 4: the first is shown"), "{}", ran.err);
+    assert!(!ran.err.contains("outside-travel"), "{}", ran.err);
+}
+
 /// What the control compensates by active tables is no error of the machine that runs; a pose shows it, and both say so.
 #[test]
 fn active_tables_are_those_of_the_machine_that_runs() {

@@ -14,7 +14,7 @@ mod rule;
 
 pub(crate) use rule::Step;
 
-use crate::axis::{Approach, Axis, AxisKind, Command};
+use crate::axis::{Approach, Axis, AxisKind, Command, Travel};
 use crate::errors::{
     BodyErrors, BodyName, Component, Curve, ErrorIndex, ErrorKind, ErrorName, ErrorValues,
     Influence, JointErrors, OutsideTable, Rotation, SixErrors, StatedError, Uncertainties,
@@ -183,6 +183,17 @@ impl Machine {
     /// Its axes, in chain order from the workpiece to the tool.
     pub fn axes(&self) -> &[Axis] {
         &self.axes
+    }
+
+    /// The command within the travel of all axes that is nearest to a command.
+    pub fn nearest_in_travel(&self, command: &Command) -> Command {
+        let mut inside = *command;
+        for (q, axis) in inside.iter_mut().zip(&self.axes) {
+            if let Travel::Between(low, high) = axis.travel {
+                *q = q.clamp(low, high);
+            }
+        }
+        inside
     }
 
     /// Its bodies, in chain order from the workpiece to the tool (without the bed).

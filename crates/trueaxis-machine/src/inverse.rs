@@ -102,15 +102,30 @@ pub enum SolveError {
     },
     /// The linear axes do not span the space at this pose, and the tip lies off what they span.
     #[error(
-        "the tip remains {missed_by_mm:.6} mm from the target: in this pose {} cannot move it in \
-         all three directions; move the target or the part by that distance", listed(.moving)
+        "{}: in this pose {} cannot move it in all three directions; {}",
+        left(*missed_by_mm), listed(.moving), advice(*missed_by_mm)
     )]
     TipUnreachable {
-        /// How far.
+        /// How far; not a number where the path passes such a pose and the distance is not known.
         missed_by_mm: f64,
         /// The independent linear axes.
         moving: Vec<BodyName>,
     },
+}
+
+/// How far the tip is from its place, where that is known.
+fn left(missed_by_mm: f64) -> String {
+    match missed_by_mm.is_nan() {
+        true => "the tip cannot keep to its path".into(),
+        false => format!("the tip remains {missed_by_mm:.6} mm from the target"),
+    }
+}
+
+fn advice(missed_by_mm: f64) -> &'static str {
+    match missed_by_mm.is_nan() {
+        true => "tilt the part, or lead the path round this pose",
+        false => "move the target or the part by that distance",
+    }
 }
 
 fn turned_by(turning: &[BodyName]) -> String {

@@ -5,7 +5,7 @@ use super::setup::SetUp;
 use trueaxis_geometry::angle;
 use trueaxis_geometry::frame::{Direction, Pose, Workpiece};
 use trueaxis_geometry::{Mat3, Vec3};
-use trueaxis_machine::axis::{AxisKind, Command, Travel};
+use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::errors::ErrorValues;
 use trueaxis_machine::tcp::{DirectionSolution, TipControl};
 use trueaxis_machine::{Machine, SolveError};
@@ -83,12 +83,7 @@ pub(super) fn workpiece_from_basic(machine: &Machine) -> (Mat3, Vec3) {
 /// travel next to it.
 pub(super) fn start(machine: &Machine, setup: &SetUp) -> Command {
     let axis_of = axes_of_programs(machine);
-    let mut command = Command::default();
-    for (q, axis) in command.iter_mut().zip(machine.axes()) {
-        if let Travel::Between(low, high) = axis.travel {
-            *q = 0.0_f64.clamp(low, high);
-        }
-    }
+    let mut command = machine.nearest_in_travel(&Command::default());
     if let Some(start) = &setup.start {
         for axis in Axis::ALL {
             if let Some(index) = axis_of[axis as usize] {

@@ -81,7 +81,7 @@ pub use table::{CsvTable, POSE_COLUMNS, headings};
 pub use temperature_log::read_temperature_log;
 pub use tool_check::{ToolStanding, standing, tool_standings};
 pub use tool_path::Batch;
-pub use trace::{Trace, TracedNode, block_line, trace};
+pub use trace::{Trace, TracedNode, block_lines, trace};
 pub use trueaxis_nc::Stop;
 
 use axis_path::AxisPath;

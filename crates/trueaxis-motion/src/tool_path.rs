@@ -3,7 +3,7 @@
 use super::axis_path::{Fault, Node};
 use super::clock::Stamp;
 use trueaxis_geometry::Vec3;
-use trueaxis_machine::axis::{Approach, Command, MAX_AXES, Travel};
+use trueaxis_machine::axis::{Approach, Command, MAX_AXES};
 use trueaxis_machine::batch::{BatchError, Commands, CompiledMachine, DeviationTable};
 use trueaxis_machine::errors::ErrorValues;
 use trueaxis_machine::{Deviation, Machine};
@@ -147,7 +147,7 @@ impl ToolPath {
             let Some(index) = error.index() else { return };
             let node = &nodes[from + index];
             let machine = self.machine.machine();
-            let inside = within_travel(machine, &node.command);
+            let inside = machine.nearest_in_travel(&node.command);
             let approach = std::array::from_fn(|a| {
                 self.approaches[a].get(from + index).copied().unwrap_or(0.0)
             });
@@ -198,19 +198,8 @@ pub(super) fn errors_near(
     command: &Command,
     approach: &Approach,
 ) -> ErrorValues {
-    let inside = || machine.errors_at(&within_travel(machine, command), approach);
+    let inside = || machine.errors_at(&machine.nearest_in_travel(command), approach);
     machine.errors_at(command, approach).or_else(|_| inside()).unwrap_or_default()
-}
-
-/// The nearest command within the travel.
-fn within_travel(machine: &Machine, command: &Command) -> Command {
-    let mut inside = *command;
-    for (q, axis) in inside.iter_mut().zip(machine.axes()) {
-        if let Travel::Between(low, high) = axis.travel {
-            *q = q.clamp(low, high);
-        }
-    }
-    inside
 }
 
 fn unknown(node: &Node, error: &BatchError) -> Fault {

@@ -1,8 +1,9 @@
 //! One block through every stage of the walk.
 
-use super::{Batch, Node, Observer, Options, Run, SetUp, Stamp, simulate};
+use super::{Batch, Job, Node, Observer, Options, Run, SetUp, Stamp, simulate};
 use trueaxis_geometry::Vec3;
-use trueaxis_machine::axis::Approach;
+use trueaxis_input::{Diagnostics, Place};
+use trueaxis_machine::axis::{Approach, AxisKind, Command};
 use trueaxis_machine::{Deviation, Machine};
 use trueaxis_nc::Program;
 use trueaxis_nc::moves::{Event, Frame, Move, OrientationPath, Position, Step};
@@ -61,13 +62,38 @@ impl Trace {
             Step::Event(..) => None,
         })
     }
+
+    /// The errors of a machine are known within its travel only: beyond it those of its end are taken.
+    pub fn warn_outside_travel(&self, job: &Job, problems: &mut Diagnostics) {
+        for (index, axis) in job.machine.axes().iter().enumerate() {
+            let beyond = |command: &Command| {
+                (command[index] - job.machine.nearest_in_travel(command)[index]).abs()
+            };
+            let commands = self.nodes.iter().map(|n| &n.node.command);
+            let furthest = commands.max_by(|a, b| beyond(a).total_cmp(&beyond(b)));
+            let outside = furthest.map(|command| command[index]);
+            let Some(outside) = outside.filter(|q| !axis.travel.contains(*q)) else { continue };
+            let shown = match axis.kind {
+                AxisKind::Linear => format!("{outside:.3} mm"),
+                AxisKind::Rotary => format!("{:.4} deg", outside.to_degrees()),
+            };
+            let message = format!(
+                "{} goes to {shown} in this block, outside its travel: the errors of the machine are not known there, \
+                 the deviations are those of the errors at the end of the travel",
+                axis.name
+            );
+            let hint = "correct the work offset, the tool length or the program, then read the deviations again";
+            let place = Place { line: self.line, column: 1, ..Place::whole(job.program.file()) };
+            problems.warn("deviation-outside-travel", place, message, hint);
+        }
+    }
 }
 
 /// More places of one block than this are not kept; a block rarely has a hundred.
 const MOST_NODES: usize = 100_000;
 
-/// The line of a block: that with the block number N, else the line of that number, from 1.
-pub fn block_line(program: &Program, block: usize) -> Option<usize> {
+/// The lines of a block: those with the block number N, else the line of that number, from 1.
+pub fn block_lines(program: &Program, block: usize) -> Vec<usize> {
     let lines = || program.source().split(|b| *b == b'\n');
     let numbered = |line: &[u8]| {
         let text: &[u8] = line.trim_ascii_start();
@@ -82,8 +108,12 @@ pub fn block_line(program: &Program, block: usize) -> Option<usize> {
         let number = std::str::from_utf8(&digits[..length]).ok().and_then(|d| d.parse().ok());
         number == Some(block)
     };
-    let by_number = lines().position(numbered).map(|i| i + 1);
-    by_number.or_else(|| (block >= 1 && block <= lines().count()).then_some(block))
+    let mut found: Vec<usize> =
+        lines().enumerate().filter(|(_, line)| numbered(line)).map(|(i, _)| i + 1).collect();
+    if found.is_empty() && block >= 1 && block <= lines().count() {
+        found.push(block);
+    }
+    found
 }
 
 /// Simulates the program and keeps the path of one line.
@@ -211,8 +241,8 @@ mod tests {
     fn blocks_are_found_by_number_then_by_line() {
         let text = b"%\nN10 G0 X0\n/ N20 G1 X1\nM30\n".to_vec();
         let program = Program::new("a.nc", text, Control::Fanuc);
-        assert_eq!(block_line(&program, 20), Some(3));
-        assert_eq!(block_line(&program, 4), Some(4));
-        assert_eq!(block_line(&program, 99), None);
+        assert_eq!(block_lines(&program, 20), [3]);
+        assert_eq!(block_lines(&program, 4), [4]);
+        assert!(block_lines(&program, 99).is_empty());
     }
 }

@@ -11,7 +11,7 @@ import { Exaggeration } from "../scene/exaggeration.ts";
 import { withModels } from "../scene/models.ts";
 import { MachineView } from "../scene/view.ts";
 import { bodyOf, Simulation, type Job, type Moment } from "./simulate/answers.ts";
-import { Choices, dropTarget, type Choice, type Dropped } from "./simulate/choices.ts";
+import { Choices, dropTarget, NOTHING_CHOSEN, type Choice, type Dropped } from "./simulate/choices.ts";
 import { Curves } from "./simulate/curves.ts";
 import { Find } from "./simulate/find.ts";
 import { ToolPath } from "./simulate/path.ts";
@@ -56,7 +56,7 @@ class SimulateTab implements TabHandle {
   /** What the address says of the simulation that is on its way. */
   private wanted: Params = {};
   private readonly curves: Curves;
-  private choice: Choice = { machine: null, program: null, setup: null, control: null };
+  private choice: Choice = NOTHING_CHOSEN;
   private dropped: Dropped | null = null;
   /** Programs that were dropped in this window, by name: going back in the browser finds them. */
   private readonly kept = new Map<string, Dropped>();
@@ -184,6 +184,7 @@ class SimulateTab implements TabHandle {
           program: params.program ?? null,
           setup: params.setup ?? null,
           control: params.control ?? null,
+          optional: params.optional ?? null,
         };
     if (dropped === this.dropped && JSON.stringify(choice) === JSON.stringify(this.choice)) {
       if (this.simulation) this.takeState(params);
@@ -224,6 +225,7 @@ class SimulateTab implements TabHandle {
       dropped: dropped?.name,
       setup: choice.setup,
       control: choice.control,
+      optional: choice.optional,
     });
   }
 
@@ -237,10 +239,16 @@ class SimulateTab implements TabHandle {
   }
 
   private job(): Job | null {
-    const { machine, program, setup, control } = this.choice;
+    const { machine, program, setup, control, optional } = this.choice;
     const what = this.dropped ?? program;
     if (!machine || !what) return null;
-    return { machine, program: what, ...(setup ? { setup } : {}), ...(control ? { control } : {}) };
+    return {
+      machine,
+      program: what,
+      ...(setup ? { setup } : {}),
+      ...(control ? { control } : {}),
+      ...(optional === "off" ? { optional_blocks: false } : {}),
+    };
   }
 
   // ---- the set-up ----

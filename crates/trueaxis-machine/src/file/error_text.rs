@@ -2,15 +2,18 @@
 //! Fourier series or tables.
 
 use super::Tables;
-use super::table_text::{ErrorTable, TableCurves, TableHabits, headings_place, position_dimension};
+use super::table_text::{
+    ErrorTable, TableCurves, TableHabits, error_of, headings_place, position_dimension,
+};
 use crate::axis::{Axis, AxisKind, Travel};
 use crate::chain::ChainBody;
 use crate::errors::{
     Component, Curve, ErrorKind, ErrorName, Extrapolation, Harmonic, Interpolation, Measurement,
     StatedError, Uncertainty,
 };
+use std::cell::{Cell, RefCell};
 use trueaxis_input::plausible::{Limits, Quantity};
-use trueaxis_input::{CsvTable, Diagnostics, Dimension, Item, Place, Section};
+use trueaxis_input::{CsvTable, Date, Diagnostics, Dimension, Item, Place, Section};
 
 /// Highest accepted order of a Fourier series; harmonics of higher order are noise.
 const HIGHEST_ORDER: f64 = 1e4;
@@ -73,20 +76,27 @@ struct MotionReader<'a> {
     habits: TableHabits,
     u: [Option<f64>; 2],
     measured: Measurement,
+    /// How many tables were read.
+    tables_read: Cell<usize>,
+    /// Columns of the axis in tables of single errors, about another of its errors.
+    passed_over: RefCell<Vec<(Component, Place)>>,
 }
 
 /// `[motion.X]`: a table of several columns, single curves, or both.
 pub fn read_motion(section: &Section<'_>, axis: &Axis, body: &mut ChainBody, tables: &dyn Tables) {
+    let (interpolation, outside) = (read_interpolation(section), read_outside(section));
     let reader = MotionReader {
         axis,
         tables,
         habits: TableHabits {
-            interpolation: read_interpolation(section).unwrap_or(Interpolation::NotAKnot),
-            outside: read_outside(section).unwrap_or(Extrapolation::Error),
+            interpolation: interpolation.unwrap_or(Interpolation::NotAKnot),
+            outside: outside.unwrap_or(Extrapolation::Error),
             limits: section.limits(),
         },
         u: read_uncertainties(section),
         measured: read_measurement(section),
+        tables_read: Cell::new(0),
+        passed_over: RefCell::new(Vec::new()),
     };
     if let Some(table) = section.get("table").and_then(|item| reader.load(section, &item)) {
         reader.read_columns(section, &table, body);
@@ -119,9 +129,37 @@ pub fn read_motion(section: &Section<'_>, axis: &Axis, body: &mut ChainBody, tab
         }
         body.motion[name.component as usize] = read;
     }
+    reader.warn_of_columns(section, body);
+    let rules = [("interpolation", interpolation.is_some()), ("outside", outside.is_some())];
+    for (key, _) in rules.into_iter().filter(|(_, stated)| *stated && reader.tables_read.get() == 0)
+    {
+        if let Some(item) = section.get(key) {
+            let message = format!("`{key}` is a rule for tables, and there is none");
+            item.warn("no-effect", message, "leave it out, or state the table");
+        }
+    }
 }
 
 impl MotionReader<'_> {
+    /// Names columns of tables of one error that are about an error of the axis that nothing else states.
+    fn warn_of_columns(&self, section: &Section<'_>, body: &ChainBody) {
+        let mut problems = Diagnostics::new();
+        let mut passed_over = self.passed_over.borrow_mut();
+        passed_over.sort_by_key(|(component, _)| *component as usize);
+        passed_over.dedup_by_key(|(component, _)| *component);
+        for (component, place) in passed_over.drain(..) {
+            if body.motion[component as usize].is_none() {
+                let name = format!("E{}{}", component.letter(), self.axis.name);
+                let message =
+                    format!("the column of {name} is not used: the table is that of one error");
+                let hint =
+                    format!("`table = …` for all columns, or an entry {name} = {{ table = … }}");
+                problems.warn("unused-column", place, message, &hint);
+            }
+        }
+        section.take_over(problems);
+    }
+
     fn general_u(&self, component: Component) -> Option<Uncertainty> {
         self.u[usize::from(component.is_rotation())].map(Uncertainty::Constant)
     }
@@ -270,7 +308,13 @@ impl MotionReader<'_> {
                 "write [[order, \"cosine\", \"sine\"], …], such as [[1, \"2 um\", \"1 um\"]]";
             let terms = series.require("terms", hint)?.list()?;
             let terms: Vec<_> = terms.iter().map(|t| harmonic(t, dimension, hint)).collect();
-            let terms = terms.into_iter().collect::<Option<_>>()?;
+            let terms: Vec<Harmonic> = terms.into_iter().collect::<Option<_>>()?;
+            let twice = |i: &usize| terms[..*i].iter().any(|t| t.order == terms[*i].order);
+            if let Some(i) = (0..terms.len()).find(twice) {
+                let message = format!("the order {} is stated twice", terms[i].order);
+                series.error("bad-curve", message, "keep one of the two, or their sum");
+                return None;
+            }
             Some(Curve::Fourier { mean: mean?, terms })
         })?
     }
@@ -296,6 +340,10 @@ impl MotionReader<'_> {
                 "name it by error and unit, such as EXX_um or EAX_urad",
             );
         }
+        let lacks = read.as_ref().is_none_or(|r| r.lacks(component));
+        let others = table.columns.iter().filter_map(|c| Some((error_of(&c.name, self.axis)?, c)));
+        let others = others.filter(|(other, _)| !lacks && *other != component);
+        self.passed_over.borrow_mut().extend(others.map(|(other, c)| (other, c.place.clone())));
         let curves = read.and_then(|r| r.curves(component, &mut problems));
         section.take_over(problems);
         curves
@@ -317,6 +365,7 @@ impl MotionReader<'_> {
     }
 
     fn load(&self, section: &Section<'_>, item: &Item<'_>) -> Option<CsvTable> {
+        self.tables_read.set(self.tables_read.get() + 1);
         let name = item.text()?;
         let text = match self.tables.text(name) {
             Ok(text) => text,
@@ -426,11 +475,21 @@ fn not_negative(item: &Item<'_>, dimension: Dimension) -> Option<f64> {
     Some(u)
 }
 
+fn read_date(item: &Item<'_>) -> Option<String> {
+    let text = item.date_or_text()?;
+    if Date::parse(&text).is_none() {
+        let message = format!("`{text}` is not a date");
+        item.error("bad-date", message, "write it as 2026-03-14");
+        return None;
+    }
+    Some(text)
+}
+
 /// `measured = { instrument = "XL-80", date = 2021-03-28, temperature = "20 degC" }`.
 fn read_measurement(section: &Section<'_>) -> Measurement {
     let read = section.section("measured", |m| Measurement {
         instrument: m.text("instrument").map(str::to_owned),
-        date: m.get("date").and_then(|d| d.date_or_text()),
+        date: m.get("date").and_then(|d| read_date(&d)),
         temperature_celsius: m.quantity_of("temperature", Quantity::Temperature),
     });
     read.unwrap_or_default()

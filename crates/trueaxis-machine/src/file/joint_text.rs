@@ -94,6 +94,18 @@ fn read_file(root: &Section<'_>, name: &str, machine: &Machine) -> Option<JointE
     });
     let (functions, places): (Vec<JointFunction>, Vec<Option<usize>>) =
         functions.flatten()?.into_iter().unzip();
+    if let Some(row) = unused(&rows, &places) {
+        let name = &rows[row].of[0].0;
+        let message = format!(
+            "what is known of `{name}` is not used: no other key of [function] is `{name}`"
+        );
+        items[row].error(
+            "bad-covariance",
+            message,
+            "each name with the share 1.0, once, as in [function]",
+        );
+        return None;
+    }
     let n = functions.len();
     let covariance = DMatrix::from_fn(n, n, |i, j| match (places[i], places[j]) {
         (Some(i), Some(j)) => rows[i.max(j)].covariance[i.min(j)],
@@ -105,6 +117,19 @@ fn read_file(root: &Section<'_>, name: &str, machine: &Machine) -> Option<JointE
         root.error("bad-covariance", message, "take the file as identify wrote it");
     }
     joint
+}
+
+/// A row about one error that no function takes: its uncertainty would be lost. Set-ups and servo errors are for a later
+/// campaign, sums of errors for the reader.
+fn unused(rows: &[KnownRow], places: &[Option<usize>]) -> Option<usize> {
+    let is_error = |name: &str| {
+        let error = name.split(' ').next().and_then(ErrorName::parse);
+        error.is_some() && !name.ends_with(" reversal")
+    };
+    (0..rows.len()).find(|row| {
+        let alone = matches!(&rows[*row].of[..], [(name, _)] if is_error(name));
+        alone && !places.contains(&Some(*row))
+    })
 }
 
 /// `{ error = "EXX", polynomial = […], origin, scale }`, `cosine = 2`, `sine = 2`, `hat = "12 mm", step = "10 mm"`, or

@@ -294,6 +294,12 @@ fn positions(axis: &Axis, table: &CsvTable, problems: &mut Diagnostics) -> Optio
     in_inner_unit(table, column, position_dimension(axis.kind), problems)
 }
 
+/// The error motion of an axis that a column is about; none for positions and what is no error of it.
+pub fn error_of(column: &str, axis: &Axis) -> Option<Component> {
+    let name = ErrorName::parse(error_and_role(heading(column).0).0)?;
+    (name.kind == ErrorKind::Motion && name.body == axis.name).then_some(name.component)
+}
+
 /// Where the columns have their names.
 pub fn headings_place(table: &CsvTable) -> Place {
     table

@@ -97,6 +97,7 @@ impl SimulateRequest {
             setup: self.setup.map(|name| desk.project.path(&name)).transpose()?,
             control: self.control,
             keep_going: self.keep_going.unwrap_or(false),
+            without_optional: !self.optional_blocks.unwrap_or(true),
             stop: Stop::from(job.halt.flag.clone()),
             ..ProgramChoice::default()
         };

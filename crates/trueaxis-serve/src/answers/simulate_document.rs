@@ -27,6 +27,8 @@ pub(super) struct SimulateRequest {
     pub(super) keep_going: Option<bool>,
     /// Whether collisions are looked for; true if it is left out.
     pub(super) collisions: Option<bool>,
+    /// Whether blocks with `/` are executed, as with the switch of the control off; true if it is left out.
+    pub(super) optional_blocks: Option<bool>,
 }
 
 impl SimulateRequest {

@@ -27,6 +27,8 @@ pub(super) struct TraceRequest {
     name: Option<String>,
     /// Its text.
     text: Option<String>,
+    /// Whether blocks with `/` are executed, as with the switch of the control off; true if it is left out.
+    optional_blocks: Option<bool>,
     /// The line of the block, from 1.
     line: u32,
 }
@@ -35,7 +37,7 @@ impl Request for TraceRequest {
     type Answer<'a> = Diagnosed<'a, TraceDocument<'a>>;
 
     fn answer(self, desk: &Desk, job: &Job) -> Result<Reply<Self>, Refusal> {
-        let Self { machine, program, setup, control, name, text, line } = self;
+        let Self { machine, program, setup, control, name, text, optional_blocks, line } = self;
         let asked = SimulateRequest {
             machine,
             program,
@@ -45,6 +47,7 @@ impl Request for TraceRequest {
             text,
             keep_going: Some(true),
             collisions: Some(false),
+            optional_blocks,
         };
         let question = asked.question(desk, job)?;
         let mut problems = Diagnostics::new();
@@ -61,6 +64,7 @@ impl Request for TraceRequest {
             let message = "the search for the block was stopped";
             return Err(Refusal::new(409, "stopped", message, "ask again"));
         }
+        found.warn_outside_travel(&read, &mut problems);
         let report = TraceReport::of(&read, line as usize, &found);
         let answer =
             Diagnosed { document: TraceDocument::from(&report), diagnostics: entries(&problems) };

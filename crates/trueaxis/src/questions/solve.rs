@@ -66,7 +66,8 @@ impl Question for Solve {
         }
         let from = match &self.from {
             Some(text) => words::command(&machine, "--from", text, problems),
-            None => Some(Command::default()),
+            // Where 0 is not within a travel, the axis stands at the end next to it.
+            None => Some(machine.nearest_in_travel(&Command::default())),
         };
         let (targets, table) = match &self.target {
             SolveTarget::Pose(tip, axis) => {

@@ -5,7 +5,7 @@ use super::{Answer, MachineChoice, ProgramChoice, Question, Tell};
 use crate::report::{self, TraceReport};
 use serde_json::Value;
 use trueaxis_input::{Diagnostics, Files};
-use trueaxis_motion::{Job, Trace, block_line, trace};
+use trueaxis_motion::{Job, Trace, block_lines, trace};
 use trueaxis_report::{Report, document};
 
 /// One block of a program through every stage of the simulation.
@@ -32,7 +32,18 @@ impl Question for TraceBlock {
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
         let job = self.program.read(&self.machine, files, problems)?;
-        let line = block_line(&job.program, self.block);
+        let lines = block_lines(&job.program, self.block);
+        let line = lines.first().copied();
+        if lines.len() > 1 {
+            let places: Vec<String> = lines.iter().map(ToString::to_string).collect();
+            let message = format!(
+                "the block number {} stands in the lines {}: the first is shown",
+                self.block,
+                places.join(", ")
+            );
+            let hint = "take the block number out of the others, or their lines into a program of their own";
+            problems.warn("repeated-block-number", argument("--block"), message, hint);
+        }
         if line.is_none() {
             let message = format!("the program has no block {}", self.block);
             let hint = "give a block number N, or a line of the program";
@@ -53,6 +64,7 @@ impl Question for TraceBlock {
             let message = format!("line {line} is never executed, or does nothing: {}", found.text);
             problems.warn("nothing-to-trace", argument("--block"), message, "choose another block");
         }
+        found.warn_outside_travel(&job, problems);
         Some(TraceAnswer { job, block: self.block, found })
     }
 }

@@ -37,6 +37,8 @@ export interface Job {
   /** Without one the file beside the program. */
   setup?: string | undefined;
   control?: string | undefined;
+  /** False: blocks with `/` are left out. */
+  optional_blocks?: boolean;
   keep_going?: boolean;
 }
 

@@ -17,7 +17,11 @@ export interface Choice {
   program: string | null;
   setup: string | null;
   control: string | null;
+  /** "off": blocks with `/` are left out. */
+  optional: string | null;
 }
+
+export const NOTHING_CHOSEN: Choice = { machine: null, program: null, setup: null, control: null, optional: null };
 
 const CONTROLS: readonly [string, string][] = [
   ["sinumerik", "SINUMERIK"],
@@ -31,7 +35,7 @@ const MOST_BYTES = 60e6;
 export class Choices {
   readonly element = h("section", { class: "panel simulate-choices", ariaLabel: tr`What is simulated` });
   private readonly app: App;
-  private choice: Choice = { machine: null, program: null, setup: null, control: null };
+  private choice: Choice = NOTHING_CHOSEN;
   private dropped: Dropped | null = null;
   private readonly pick: (choice: Choice, dropped: Dropped | null) => void;
   private readonly edit: () => void;
@@ -78,6 +82,10 @@ export class Choices {
         ),
       ),
       this.labelled(tr`Control`, this.select("control", CONTROLS, tr`automatic`, choice.control)),
+      this.labelled(
+        tr`Optional blocks`,
+        this.select("optional", [["off", tr`left out`]], tr`executed`, choice.optional),
+      ),
     );
   }
 
@@ -134,6 +142,7 @@ export class Choices {
       program: tr`NC program`,
       setup: tr`Set-up: work offsets, tools, stock`,
       control: tr`Whose program it is`,
+      optional: tr`Blocks that begin with /: the switch of the control leaves them out`,
     };
     const select = h(
       "select",
@@ -147,7 +156,7 @@ export class Choices {
 
   private changed(key: keyof Choice, value: string | null): void {
     // The set-up and control of one program are not those of another.
-    const fresh = key === "program" ? { setup: null, control: null } : {};
+    const fresh = key === "program" ? { setup: null, control: null, optional: null } : {};
     this.pick({ ...this.choice, ...fresh, [key]: value }, key === "program" ? null : this.dropped);
   }
 }

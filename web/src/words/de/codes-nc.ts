@@ -197,6 +197,7 @@ export const codes: Dictionary = {
   "not-watched": "Körperpaar nicht überwacht",
   "collisions-not-checked": "Kollisionsprüfung vorzeitig beendet",
   "no-such-block": "Satz im Programm nicht vorhanden",
+  "repeated-block-number": "Satznummer mehrfach vergeben",
   "nothing-to-trace": "Zeile wird nicht ausgeführt",
   "deviation-outside-travel": "Größte Abweichung außerhalb des Verfahrwegs",
   collision: "Kollision",

@@ -41,6 +41,11 @@ export const texts: Dictionary = {
   "choose a program": "Programm wählen",
   "{0} (of this computer)": "{0} (von diesem Rechner)",
   "Set-up: work offsets, tools, stock": "Aufspannung: Nullpunktverschiebungen, Werkzeuge, Rohteil",
+  "Optional blocks": "Ausblendsätze",
+  "left out": "ausgeblendet",
+  executed: "ausgeführt",
+  "Blocks that begin with /: the switch of the control leaves them out":
+    "Sätze mit / am Anfang: der Schalter der Steuerung blendet sie aus",
   "Whose program it is": "Für welche Steuerung das Programm ist",
   speed: "Geschwindigkeit",
   normal: "Normale",

@@ -197,6 +197,7 @@ export const codes: Dictionary = {
   "not-watched": "部件对未被监控",
   "collisions-not-checked": "碰撞检查提前终止",
   "no-such-block": "程序中无此程序段",
+  "repeated-block-number": "程序段号重复",
   "nothing-to-trace": "该行未执行或无动作",
   "deviation-outside-travel": "最大偏差位于行程之外",
   collision: "碰撞",
