@@ -4,6 +4,8 @@ mod circle;
 mod cycle;
 mod technology;
 
+pub use cycle::SAME_PITCH;
+
 use super::numbers::{Fault, is_direction, is_near, norm, number};
 use super::plain::{self, PlainPoint};
 use super::scan::{Scanner, Statement};

@@ -34,6 +34,7 @@ fn law_a_hole_is_the_same_in_every_notation() {
         dwell_s: 0.0,
         feeds_out: false,
         feed,
+        tap: None,
     };
     for line in [
         "CYCLE/DRILL,FEDTO,20,MMPM,100,RAPTO,3",
@@ -80,10 +81,56 @@ fn what_a_cycle_does_not_say_is_not_guessed() {
     refused("CYCLE/DRILL,FEDTO,MMPM,100", "bad-number");
     refused("CYCLE/DRILL,FEDTO,20,MMPM,0", "bad-feed");
     refused("CYCLE/DRILL,FEDTO,20,DWELL,-2", "bad-delay");
-    refused("CYCLE/TAP,20,1", "motion-not-read");
+    refused("CYCLE/THREAD,20,1", "motion-not-read");
     for line in ["CYCLE/DRILL,FEDTO,20,MMPT,0.1,RAPTO,3", "CYCLE/BRKCHP,FEDTO,20,STEP,5"] {
         refused(line, "cycle-not-applied");
     }
+}
+
+/// An M8 thread, 20 deep, from 3 above, in the words of every system; 20 threads per inch are 1.27 mm.
+#[test]
+fn law_a_thread_is_the_same_in_every_notation() {
+    let tapped = |line: &str| match word(line) {
+        (Word::Cycle(cycle), found) => {
+            let heights = [cycle.depth_mm, cycle.clearance_mm, cycle.retract_mm];
+            assert!(
+                cycle.feeds_out && heights == [20.0, 3.0, 12.0] && cycle.dwell_s == 0.0,
+                "{line}"
+            );
+            (cycle.tap.expect("a thread").pitch_mm, cycle.feed.map(|f| f.value), found)
+        }
+        other => panic!("{line} {other:?}"),
+    };
+    for kind in ["TAP", "RTAP", "RIGID", "tap"] {
+        for pitch in ["MMPR,1.25", "1.25,MMPR", "PERREV,1.25", "PITCH,1.25"] {
+            let line = format!("CYCLE/{kind},FEDTO,20,{pitch},RAPTO,3,RTRCTO,12");
+            let (found, _, said) = tapped(&line);
+            assert_eq!((found, said), (Some(1.25), vec![]), "{line}");
+        }
+    }
+    let (pitch, _, _) = tapped("CYCLE/TAP,DEPTH,20,TPI,20,CLEAR,3,RETURN,12");
+    assert_eq!(pitch, Some(1.27));
+    // Without a pitch it is that of feed and speed where the hole is.
+    let of_feed = tapped("CYCLE/TAP,FEDTO,20,MMPM,1500,RAPTO,3,RTRCTO,12");
+    assert_eq!(of_feed, (None, Some(1500.0), vec![]));
+    let both = tapped("CYCLE/TAP,FEDTO,20,MMPM,1500,MMPR,1.25,RAPTO,3,RTRCTO,12");
+    assert_eq!(both, (Some(1.25), Some(1500.0), vec![]));
+    // The spindle turns round at the bottom: nothing waits there.
+    let waits = tapped("CYCLE/TAP,FEDTO,20,MMPR,1.25,RAPTO,3,RTRCTO,12,DWELL,0.5");
+    assert_eq!(waits.2, ["cycle-not-applied"]);
+    for (words, code) in [
+        ("MMPR,1.25,PITCH,1.5", "contradicting-pitch"),
+        ("PITCH,1.25,TPI,16", "contradicting-pitch"),
+        ("PITCH,0", "bad-cycle"),
+        ("PITCH,-1", "bad-cycle"),
+        ("PITCH,30", "bad-cycle"),
+        ("TPI,0", "bad-cycle"),
+        ("MMPR,1.25,STEP,5", "bad-cycle"),
+        ("PITCH,MMPR,1.25", "bad-number"),
+    ] {
+        refused(&format!("CYCLE/TAP,FEDTO,20,{words},RAPTO,3"), code);
+    }
+    refused("CYCLE/DRILL,FEDTO,20,MMPM,100,RAPTO,3,PITCH,1.25", "cycle-not-applied");
 }
 
 #[test]

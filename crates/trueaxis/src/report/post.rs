@@ -62,10 +62,10 @@ pub fn post_report(report: &PostReport<'_>) -> Report<'static> {
         true => answer.verdict(Standing::Good, "PASS", "the program is within the tolerances"),
         false => answer.verdict(Standing::Bad, "FAIL", "the program is not within the tolerances"),
     };
-    answer.section(comparison(found, report.options))
+    answer.section(comparison(found, report.options, posted.threads()))
 }
 
-fn comparison(found: &Verification, options: &PostOptions) -> Section<'static> {
+fn comparison(found: &Verification, options: &PostOptions, threads: usize) -> Section<'static> {
     let mut table =
         Table::new(["", "largest", "unit", "allowed", "line of program", "line of file"]);
     let mut row = |name: &str, unit: &str, l: &Largest, scale: f64, allowed: String, digits| {
@@ -79,8 +79,11 @@ fn comparison(found: &Verification, options: &PostOptions) -> Section<'static> {
     let axis = format!("{:.5}", options.axis_tolerance_rad.to_degrees());
     row("tip at the ends of blocks", "µm", &found.tip_at_ends, 1e3, String::new(), 4);
     row("tool axis at the ends of blocks", "µrad", &found.axis_at_ends, 1e6, String::new(), 4);
-    row("tip from the path", "µm", &found.tip_between, 1e3, tip, 4);
+    row("tip from the path", "µm", &found.tip_between, 1e3, tip.clone(), 4);
     row("tool axis from the path", "deg", &found.axis_between, degrees, axis, 5);
+    if threads > 0 {
+        row("lead of threads over their depth", "µm", &found.lead, 1e3, tip, 4);
+    }
     let note = format!("{} blocks compared", found.compared);
     Section::new("Read back and simulated on the nominal machine").table(table.note(note))
 }

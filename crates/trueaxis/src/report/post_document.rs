@@ -31,6 +31,8 @@ pub struct PostDocument<'a> {
     pub arcs: usize,
     /// Holes that the control drills by its own cycle.
     pub holes: usize,
+    /// How many of them are tapped threads.
+    pub threads: usize,
     /// How often the tool retracts so that an axis can rewind.
     pub rewinds: usize,
     /// How far the tool axis was turned to pass through a pole, degrees.
@@ -58,6 +60,8 @@ pub struct VerificationEntry {
     pub tip_on_path_um: LargestEntry,
     /// Largest angle of the tool axis from the path, degrees.
     pub axis_on_path_deg: LargestEntry,
+    /// Largest error of the lead of tapped threads over their depth, µm; 0 without threads, null where one is not tapped.
+    pub lead_um: LargestEntry,
     /// Whether an axis leaves its travel.
     pub axes_beyond_travel: bool,
 }
@@ -88,6 +92,7 @@ impl<'a> From<&PostReport<'a>> for PostDocument<'a> {
             lines: posted.lines,
             arcs: posted.arcs,
             holes: posted.holes(),
+            threads: posted.threads(),
             rewinds: posted.rewinds,
             pole_deviation_deg: posted.pole_deviation_rad.to_degrees(),
             tolerance_mm: options.tolerance_mm,
@@ -111,6 +116,7 @@ impl VerificationEntry {
             axis_at_blocks_urad: largest(&v.axis_at_ends, 1e6),
             tip_on_path_um: largest(&v.tip_between, 1e3),
             axis_on_path_deg: largest(&v.axis_between, 1_f64.to_degrees()),
+            lead_um: largest(&v.lead, 1e3),
             axes_beyond_travel: v.issues.is_critical(),
         }
     }
