@@ -144,6 +144,8 @@ pub enum Word {
     Inches(bool),
     /// CYCLE: executed at each following point.
     Cycle(ClCycle),
+    /// TRANS: how far the following points are displaced; theirs contain it. Unit: mm.
+    Translation([f64; 3]),
     /// CYCLE/OFF.
     CycleOff,
     /// DELAY: dwell time, s.

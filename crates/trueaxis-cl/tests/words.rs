@@ -1,6 +1,7 @@
 //! What a word of a cutter-location file means in the forms that systems write, and what is refused.
 
 use trueaxis_cl::{ClCycle, ClFile, ClTool, Reading, Word};
+use trueaxis_input::Severity;
 use trueaxis_nc::moves::{Coolant, Feed, FeedMode, SpindleDirection};
 
 const HEAD: &str = "UNITS/MM\nSPINDL/RPM,1200,CLW\nFEDRAT/500,MMPM\nGOTO/0,0,30,0,0,1\n";
@@ -284,4 +285,63 @@ fn circles_state_the_radius_of_their_points() {
     for line in ["CIRCLE/0,0,0,0,0,1,500", "CIRCLE/0,0,0,0,0,1,10.1", "CIRCLE/0,0,0,0,0,1,10,1"] {
         assert_eq!(circle(line), [(3, "bad-circle")], "{line}");
     }
+}
+
+/// Words that move the points are applied or refused; what changes neither motion nor spindle nor coolant is a note.
+#[test]
+fn words_that_move_the_points_are_applied_or_refused() {
+    for line in [
+        "TRACUT/1,0,0,5,0,1,0,0,0,0,1,0",
+        "TRACUT/M1",
+        "ORIGIN/1,0,0",
+        "COPY/1,SAME,3",
+        "ROTABL/90",
+        "ROTHED/ATANGL,30",
+        "ROTATE/TABLE,90",
+    ] {
+        refused(line, "motion-not-read");
+    }
+    for line in ["TRACUT/NOMORE", "ORIGIN/0,0,0", "ROTABL/OFF", "COPY/OFF"] {
+        assert_eq!(word(line), (Word::Noted, vec![]), "{line}");
+    }
+    for line in ["TRANS/1,2", "TRANS/1,2,3,4"] {
+        refused(line, "bad-point");
+    }
+    refused("TRANS/1e9,0,0", "too-far");
+    let severities = |line: &str| -> Vec<Severity> {
+        let text = format!("{HEAD}{line}\n").into_bytes();
+        let (_, problems) = ClFile::read("a", text, &Reading::default());
+        problems.iter().map(|p| p.severity).collect()
+    };
+    for line in ["GOHOME", "CLAMP/ON", "LOCKX/C"] {
+        assert_eq!(severities(line), [Severity::Note], "{line}");
+    }
+    for line in ["CUTCOM/LEFT", "AUXFUN/8", "RETRCT", "INSERT/M4", "AIR/ON", "CALSUB/1"] {
+        assert_eq!(severities(line), [Severity::Warning], "{line}");
+    }
+}
+
+/// TRANS/x,y,z is added to all points after it, in every form of them, and taken away where the file is rewritten.
+#[test]
+fn trans_displaces_points_and_circles() {
+    let text = "UNITS/INCHES\nFEDRAT/9\nGOTO/1,0,0,0,0,1\nTRANS/1,2,3\nGOTO/1,0,0,0,0,1\n\
+                CIRCLE/0,0,0,0,0,1,1\nGOTO/0,1,0\nGODLTA/0,0,1\nTRANS/OFF\nGOTO/1,0,0,0,0,1\n";
+    let (file, problems) = ClFile::read("a", text.as_bytes().to_vec(), &Reading::default());
+    assert!(problems.iter().next().is_none(), "{problems:?}");
+    let inches = |p: [f64; 3]| p.map(|v| (v / 25.4 * 1e9).round() / 1e9);
+    let tips: Vec<_> = file.points().map(|(_, p)| inches(p.tip_mm)).collect();
+    let moved = [[2.0, 2.0, 3.0], [1.0, 3.0, 3.0], [1.0, 3.0, 4.0]];
+    assert_eq!(tips, [&[[1.0, 0.0, 0.0]][..], &moved, &[[1.0, 0.0, 0.0]]].concat());
+    let centre = file.records().iter().find_map(|r| match &r.word {
+        Word::Circle(circle) => Some(inches(circle.center_mm)),
+        _ => None,
+    });
+    assert_eq!(centre, Some([1.0, 2.0, 3.0]));
+    let again = ClFile::read("a", file.rewritten(), &Reading::default()).0;
+    let again: Vec<_> = again.points().map(|(_, p)| inches(p.tip_mm)).collect();
+    assert_eq!(again, tips);
+    let said = |text: &str| read(&format!("{HEAD}{text}")).1;
+    assert_eq!(said("TRANS/1,0,0\nTRANS/2,0,0\n"), [(6, "motion-not-read")]);
+    assert_eq!(said("TRANS/1,0,0\nTRANS/0,0,0\nTRANS/2,0,0\nGOTO/1,1,1\n"), []);
+    assert_eq!(said("TRANS/1,0,0\nGODLTA/1\n"), [(6, "no-place")]);
 }

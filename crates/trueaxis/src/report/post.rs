@@ -20,6 +20,8 @@ pub struct PostReport<'a> {
     pub posted: &'a Posted,
     /// The program read back and simulated, if that was asked for.
     pub verification: Option<&'a Verification>,
+    /// Words of the file that can change motion, spindle or coolant and are not applied.
+    pub not_applied: usize,
     /// Its file.
     pub output: &'a Path,
 }
@@ -57,10 +59,22 @@ pub fn post_report(report: &PostReport<'_>) -> Report<'static> {
         let line = format!("to pass a pole the tool axis was turned by up to {degrees:.6} deg");
         answer = answer.line(line);
     }
-    let Some(found) = verification else { return answer };
-    let answer = match report.is_sound() {
-        true => answer.verdict(Standing::Good, "PASS", "the program is within the tolerances"),
-        false => answer.verdict(Standing::Bad, "FAIL", "the program is not within the tolerances"),
+    let words = count(report.not_applied, "word", "words");
+    let Some(found) = verification else {
+        return match report.not_applied {
+            0 => answer,
+            _ => answer.verdict(Standing::Open, "NOT APPLIED", format!("{words}, listed above")),
+        };
+    };
+    let answer = match (report.is_sound(), report.not_applied) {
+        (false, _) => {
+            answer.verdict(Standing::Bad, "FAIL", "the program is not within the tolerances")
+        }
+        (true, 0) => answer.verdict(Standing::Good, "PASS", "the program is within the tolerances"),
+        (true, _) => {
+            let sentence = format!("as the CL file; NOT APPLIED: {words}, listed above");
+            answer.verdict(Standing::Open, "PATH", sentence)
+        }
     };
     answer.section(comparison(found, report.options, posted.threads()))
 }

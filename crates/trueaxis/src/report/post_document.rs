@@ -41,6 +41,8 @@ pub struct PostDocument<'a> {
     pub tolerance_mm: f64,
     /// The tolerance of the tool axis, degrees.
     pub axis_tolerance_deg: f64,
+    /// Words of the file that can change motion, spindle or coolant and are not applied; the exit status is then 1.
+    pub not_applied: usize,
     /// The program read back and simulated; null if that was not asked for.
     pub verify: Option<VerificationEntry>,
 }
@@ -79,12 +81,12 @@ pub struct LargestEntry {
 
 impl<'a> From<&PostReport<'a>> for PostDocument<'a> {
     fn from(report: &PostReport<'a>) -> Self {
-        let PostReport { machine, file, points, options, posted, verification, output } = report;
+        let PostReport { machine, file, points, options, posted, verification, .. } = report;
         Self {
             schema: "trueaxis/post/1",
             machine: machine.name(),
             file,
-            program: output.display().to_string(),
+            program: report.output.display().to_string(),
             written: report.is_sound(),
             points: *points,
             strokes: posted.strokes,
@@ -97,6 +99,7 @@ impl<'a> From<&PostReport<'a>> for PostDocument<'a> {
             pole_deviation_deg: posted.pole_deviation_rad.to_degrees(),
             tolerance_mm: options.tolerance_mm,
             axis_tolerance_deg: options.axis_tolerance_rad.to_degrees(),
+            not_applied: report.not_applied,
             verify: verification.map(|v| VerificationEntry::of(v, options)),
         }
     }
