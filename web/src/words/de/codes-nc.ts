@@ -129,6 +129,8 @@ export const codes: Dictionary = {
   "unknown-tool": "Werkzeug unbekannt",
   "unknown-tool-name": "Werkzeugname unbekannt",
   "unknown-tool-length": "Werkzeuglänge unbekannt",
+  "other-tool-length": "Länge eines anderen Werkzeugs korrigiert",
+  "diameter-not-of-shape": "Durchmesser und Form des Werkzeugs verschieden",
   "unknown-cutting-edge": "Schneide ohne eigene Länge",
   "blank-without-corner": "BLK FORM 0.1 fehlt",
   "empty-program": "Programm leer",
