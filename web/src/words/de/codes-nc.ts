@@ -131,6 +131,7 @@ export const codes: Dictionary = {
   "unknown-tool-length": "Werkzeuglänge unbekannt",
   "other-tool-length": "Länge eines anderen Werkzeugs korrigiert",
   "diameter-not-of-shape": "Durchmesser und Form des Werkzeugs verschieden",
+  "setter-beyond-machine": "Werkzeugtaster schneller, als die Maschine kann",
   "unknown-cutting-edge": "Schneide ohne eigene Länge",
   "blank-without-corner": "BLK FORM 0.1 fehlt",
   "empty-program": "Programm leer",

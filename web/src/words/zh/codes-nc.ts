@@ -131,6 +131,7 @@ export const codes: Dictionary = {
   "unknown-tool-length": "刀具长度未知",
   "other-tool-length": "补偿了另一把刀具的长度",
   "diameter-not-of-shape": "刀具直径与外形不符",
+  "setter-beyond-machine": "对刀进给或转速超出机床能力",
   "unknown-cutting-edge": "刀沿无单独长度",
   "blank-without-corner": "缺少 BLK FORM 0.1",
   "empty-program": "程序为空",
