@@ -116,7 +116,7 @@ fn law_a_thread_is_the_same_in_every_notation() {
     assert_eq!(of_feed, (None, Some(1500.0), vec![]));
     let both = tapped("CYCLE/TAP,FEDTO,20,MMPM,1500,MMPR,1.25,RAPTO,3,RTRCTO,12");
     assert_eq!(both, (Some(1.25), Some(1500.0), vec![]));
-    // The spindle turns round at the bottom: nothing waits there.
+    // The spindle reverses at the bottom: nothing waits there.
     let waits = tapped("CYCLE/TAP,FEDTO,20,MMPR,1.25,RAPTO,3,RTRCTO,12,DWELL,0.5");
     assert_eq!(waits.2, ["cycle-not-applied"]);
     for (words, code) in [

@@ -505,7 +505,7 @@ fn law_optional_blocks_are_left_out_as_if_they_were_not_there() {
 #[test]
 fn the_length_of_another_tool_is_said() {
     let mill = "machines/three-axis-mill/machine.toml";
-    let folder = Folder::new("other-tool-length");
+    let folder = Folder::new("offset-of-other-tool");
     let set_up = |second: &str| {
         let text = format!(
             "[work_offset.G54]\nZ = \"-100 mm\"\n[tool.1]\nlength = \"100 mm\"\n[tool.2]\nlength = \"{second}\"\n"
@@ -534,7 +534,7 @@ fn the_length_of_another_tool_is_said() {
                 let text =
                     "H2 compensates 80.0000 mm, and tool 1 in the spindle is 100.0000 mm long";
                 let found =
-                    ran.err.contains("warning[other-tool-length]") && ran.err.contains(text);
+                    ran.err.contains("warning[offset-of-other-tool]") && ran.err.contains(text);
                 assert_eq!(found, said, "{verb} {control} {call} {second}: {}", ran.err);
                 assert_eq!(ran.err.contains("a.nc:4:"), said, "{}", ran.err);
             }

@@ -19,7 +19,7 @@ pub(crate) struct Tapped<'p> {
     control: Control,
     turning: SpindleDirection,
     speed: f64,
-    /// The hole that is looked at, and its ways so far.
+    /// The present hole, and its ways so far.
     next: usize,
     ways: Vec<Way>,
     /// The largest error of the lead over the depth of a thread, mm.
@@ -99,7 +99,7 @@ impl<'p> Tapped<'p> {
         self.lead.take(lead, place.lines[1], self.posted.path.strokes.line(hole.last));
     }
 
-    /// Every thread is looked at, even where the program ended before it.
+    /// Every thread is compared, even where the program ended before it.
     pub fn end(mut self) -> Largest {
         while self.next < self.posted.drilled.len() {
             self.end_hole();

@@ -205,7 +205,7 @@ impl Core<'_> {
             "H{number} compensates {offset:.4} mm, and tool {tool} in the spindle is {length:.4} mm long"
         );
         let hint = "write the offset of the tool, or check its length in the set-up file";
-        self.warn("other-tool-length", format!("{tool} {number}"), at, message, hint);
+        self.warn("offset-of-other-tool", format!("{tool} {number}"), at, message, hint);
     }
 
     /// Warns of an M function that is not known.

@@ -171,6 +171,13 @@ impl Question for PlanSurface {
     }
 }
 
+impl SurfaceAnswer {
+    /// Whether there are files: the program is safe, or it is asked for all the same.
+    fn is_written(&self) -> bool {
+        self.write_unsafe || self.check.is_sound()
+    }
+}
+
 impl Answer for SurfaceAnswer {
     fn document(&self, problems: &Diagnostics) -> Value {
         let Self { study, poses, spread, check, .. } = self;
@@ -189,8 +196,9 @@ impl Answer for SurfaceAnswer {
         let points: Vec<SurfacePoint> = self.poses.iter().map(|p| p.point).collect();
         let program = format!("surface.{}", extension(self.control));
         let table = ("surface.csv".to_owned(), nominal_table(&points).into_bytes());
-        let written = self.is_yes() || self.write_unsafe;
-        let Some(folder) = self.output.as_deref().filter(|_| written) else { return Vec::new() };
+        let Some(folder) = self.output.as_deref().filter(|_| self.is_written()) else {
+            return Vec::new();
+        };
         let machine = seen_from(folder, &self.study.machine_path);
         let calibration = self.study.calibration.as_ref().map(|c| seen_from(folder, &c.0));
         let files = HitsFiles {
@@ -210,7 +218,7 @@ impl Answer for SurfaceAnswer {
 
     fn notes(&self) -> Vec<String> {
         let Some(folder) = self.output.as_deref() else { return Vec::new() };
-        if !self.is_yes() && !self.write_unsafe {
+        if !self.is_written() {
             return vec![NOT_WRITTEN.to_owned()];
         }
         let hits = folder.join("hits.toml").display().to_string();

@@ -129,7 +129,7 @@ export const codes: Dictionary = {
   "unknown-tool": "Werkzeug unbekannt",
   "unknown-tool-name": "Werkzeugname unbekannt",
   "unknown-tool-length": "Werkzeuglänge unbekannt",
-  "other-tool-length": "Länge eines anderen Werkzeugs korrigiert",
+  "offset-of-other-tool": "Länge eines anderen Werkzeugs korrigiert",
   "diameter-not-of-shape": "Durchmesser und Form des Werkzeugs verschieden",
   "setter-beyond-machine": "Werkzeugtaster schneller, als die Maschine kann",
   "unknown-cutting-edge": "Schneide ohne eigene Länge",

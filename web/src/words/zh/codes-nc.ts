@@ -129,7 +129,7 @@ export const codes: Dictionary = {
   "unknown-tool": "未知刀具",
   "unknown-tool-name": "未知刀具名称",
   "unknown-tool-length": "刀具长度未知",
-  "other-tool-length": "补偿了另一把刀具的长度",
+  "offset-of-other-tool": "补偿了另一把刀具的长度",
   "diameter-not-of-shape": "刀具直径与外形不符",
   "setter-beyond-machine": "对刀进给或转速超出机床能力",
   "unknown-cutting-edge": "刀沿无单独长度",
