@@ -322,10 +322,7 @@ impl Builder<'_> {
     /// A drilling cycle: over the hole at the retract height, rapid down to the clearance, down with
     /// feed, at once or by pecks, and up in rapid; a reamer leaves the hole with feed.
     fn hole(&mut self, tip: Vec3, axis: Vec3, cycle: &ClCycle, point: &ClPoint, line: u32) {
-        let thread = match cycle.tap {
-            Some(tap) => Some(self.thread((cycle, &tap), point, line)),
-            None => None,
-        };
+        let thread = cycle.tap.map(|tap| self.thread((cycle, &tap), point, line));
         let feed = match thread {
             Some(None) => return,
             Some(Some(thread)) => Some(thread.pitch_mm * thread.speed_per_minute),
