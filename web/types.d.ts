@@ -9724,6 +9724,10 @@ export interface Post {
    */
   holes: number;
   /**
+   * How many of them are tapped threads.
+   */
+  threads: number;
+  /**
    * How often the tool retracts so that an axis can rewind.
    */
   rewinds: number;
@@ -9739,6 +9743,10 @@ export interface Post {
    * The tolerance of the tool axis, degrees.
    */
   axis_tolerance_deg: number;
+  /**
+   * Words of the file that can change motion, spindle or coolant and are not applied; the exit status is then 1.
+   */
+  not_applied: number;
   /**
    * The program read back and simulated; null if that was not asked for.
    */
@@ -9805,6 +9813,10 @@ export interface VerificationEntry {
    * Largest angle of the tool axis from the path, degrees.
    */
   axis_on_path_deg: LargestEntry;
+  /**
+   * Largest error of the lead of tapped threads over their depth, µm; 0 without threads, null where one is not tapped.
+   */
+  lead_um: LargestEntry;
   /**
    * Whether an axis leaves its travel.
    */

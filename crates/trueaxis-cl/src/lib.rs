@@ -39,6 +39,7 @@ mod scan;
 mod words;
 
 pub use path::ClPath;
+pub use reader::SAME_PITCH;
 
 use std::ops::Range;
 use trueaxis_input::Diagnostics;
@@ -66,7 +67,7 @@ pub struct ClCircle {
     pub normal: [f64; 3],
 }
 
-/// A drilling cycle; lengths along the tool axis from the point, mm.
+/// A drilling or tapping cycle; lengths along the tool axis from the point, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClCycle {
     /// Depth below the point.
@@ -86,6 +87,15 @@ pub struct ClCycle {
     pub feeds_out: bool,
     /// The feed of drilling, if the cycle states one.
     pub feed: Option<Feed>,
+    /// A thread is tapped.
+    pub tap: Option<ClTap>,
+}
+
+/// What a tapping cycle states of its thread; the spindle says on which side it turns.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ClTap {
+    /// The pitch, mm; without it that of the feed in the place where the hole is.
+    pub pitch_mm: Option<f64>,
 }
 
 /// A tool that is loaded.
@@ -134,6 +144,8 @@ pub enum Word {
     Inches(bool),
     /// CYCLE: executed at each following point.
     Cycle(ClCycle),
+    /// TRANS: how far the following points are displaced; theirs contain it. Unit: mm.
+    Translation([f64; 3]),
     /// CYCLE/OFF.
     CycleOff,
     /// DELAY: dwell time, s.

@@ -3,6 +3,9 @@
 mod circle;
 mod cycle;
 mod technology;
+mod transformation;
+
+pub use cycle::SAME_PITCH;
 
 use super::numbers::{Fault, is_direction, is_near, norm, number};
 use super::plain::{self, PlainPoint};
@@ -87,6 +90,8 @@ struct Reader<'n> {
     rapid: bool,
     feed: Option<Feed>,
     tip_mm: Option<[f64; 3]>,
+    /// TRANS: added to all points, mm.
+    translation: [f64; 3],
     technology: technology::Technology,
     /// The last cycle, for CYCLE/ON.
     cycle: Option<ClCycle>,
@@ -119,6 +124,7 @@ impl<'n> Reader<'n> {
             rapid: false,
             feed: None,
             tip_mm: None,
+            translation: [0.0; 3],
             technology: technology::Technology::default(),
             cycle: None,
             ended: None,
@@ -327,6 +333,9 @@ impl<'n> Reader<'n> {
             Major::Synonym => self.synonym(s),
             Major::Noted | Major::Load => Word::Noted,
             Major::NotApplied(what) => self.not_applied(what, s),
+            Major::Translation => self.translate(s)?,
+            Major::Replaced(what) => self.replaced(what, s),
+            Major::Refused(what) => transformation::refused(what, s)?,
             Major::Motion(what) => {
                 let message = format!("{} is not read: {what}", s.word);
                 let hint = "let the CAM system write points (GOTO)";
@@ -342,15 +351,6 @@ impl<'n> Reader<'n> {
         Word::Noted
     }
 
-    fn not_applied(&mut self, what: &str, s: &Statement) -> Word {
-        if !s.argument(0).eq_ignore_ascii_case("OFF") {
-            let message = format!("{} is read, but not applied: {what}", s.word);
-            let hint = "check the path of the tool";
-            self.warn("not-applied", &s.word, s.line, message, hint);
-        }
-        Word::Noted
-    }
-
     fn numbers<const N: usize>(&self, s: &Statement, from: usize) -> Result<[f64; N], Fault> {
         let mut values = [0.0; N];
         for (i, value) in values.iter_mut().enumerate() {
@@ -361,17 +361,11 @@ impl<'n> Reader<'n> {
 
     fn place_mm(&self, s: &Statement) -> Result<[f64; 3], Fault> {
         let place = self.numbers::<3>(s, 0)?.map(|v| v * self.unit_mm);
-        match is_near(&place) {
-            true => Ok(place),
-            false => {
-                let message = "a coordinate of the point exceeds 10 km".to_owned();
-                Err(("too-far", message, "check the units"))
-            }
-        }
+        near(place)
     }
 
     fn point(&mut self, s: &Statement) -> Result<ClPoint, Fault> {
-        let tip_mm = self.place_mm(s)?;
+        let tip_mm = near(self.displaced(self.place_mm(s)?))?;
         let axis = match s.count() {
             3 => None,
             6 => Some(self.vector(s, 3)?),
@@ -408,7 +402,7 @@ impl<'n> Reader<'n> {
     /// A point in its plain form; none where it has to be read as any other statement.
     fn plain_point(&mut self, line: u32, plain: &PlainPoint) -> Option<ClPoint> {
         let [x, y, z, i, j, k] = plain.numbers;
-        let (tip_mm, vector) = ([x, y, z].map(|v| v * self.unit_mm), [i, j, k]);
+        let (tip_mm, vector) = (self.displaced([x, y, z].map(|v| v * self.unit_mm)), [i, j, k]);
         let norm = norm(&vector);
         if !is_near(&tip_mm) || !is_direction(norm) {
             return None;
@@ -487,7 +481,8 @@ impl<'n> Reader<'n> {
             }
         };
         let Some(now) = self.tip_mm else {
-            let message = "GODLTA is before the first point".to_owned();
+            let message =
+                "GODLTA is before the first point, or before the first after TRANS".to_owned();
             return Err(("no-place", message, "write GOTO or FROM before it"));
         };
         self.moved(std::array::from_fn(|i| now[i] + step[i]), axis, s)
@@ -528,7 +523,7 @@ impl<'n> Reader<'n> {
         };
         let unit_mm = if inches { INCH_MM } else { 1.0 };
         let was_given = std::mem::replace(&mut self.units_given, true);
-        let has_numbers = self.tip_mm.is_some() || self.feed.is_some();
+        let has_numbers = self.points > 0 || self.feed.is_some() || self.translation != [0.0; 3];
         if self.reading.inches.is_none() {
             if has_numbers && unit_mm != self.unit_mm {
                 self.other_units(s, was_given)?;
@@ -550,6 +545,16 @@ impl<'n> Reader<'n> {
         let hint = "check that the file means it";
         self.warn("unit-changes", "", s.line, message, hint);
         Ok(())
+    }
+}
+
+fn near(place_mm: [f64; 3]) -> Result<[f64; 3], Fault> {
+    match is_near(&place_mm) {
+        true => Ok(place_mm),
+        false => {
+            let message = "a coordinate of the point exceeds 10 km".to_owned();
+            Err(("too-far", message, "check the units"))
+        }
     }
 }
 

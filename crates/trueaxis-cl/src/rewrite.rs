@@ -49,11 +49,14 @@ impl ClFile {
     pub fn rewritten(&self) -> Vec<u8> {
         let mut text = Vec::with_capacity(self.source.len() + self.source.len() / 4);
         let mut done = 0;
-        let mut unit_mm = 1.0;
+        let (mut unit_mm, mut translation) = (1.0, [0.0; 3]);
         for record in &self.records {
             match &record.word {
                 Word::Inches(inches) => unit_mm = if *inches { INCH_MM } else { 1.0 },
+                Word::Translation(by) => translation = *by,
                 Word::Goto(point) => {
+                    let tip_mm = std::array::from_fn(|i| point.tip_mm[i] - translation[i]);
+                    let point = &ClPoint { tip_mm, ..*point };
                     let span = record.span.clone();
                     text.extend_from_slice(self.source.get(done..span.start).unwrap_or_default());
                     write_point(&mut text, self.statement(record), point, unit_mm);

@@ -30,8 +30,14 @@ pub(super) enum Major {
     Synonym,
     /// Without effect on the path.
     Noted,
-    /// It changes the path and is not applied: a warning.
+    /// TRANS: the following points are displaced.
+    Translation,
+    /// It can change motion, spindle or coolant and is not applied: a warning.
     NotApplied(&'static str),
+    /// It is not applied, and changes none of them: a note.
+    Replaced(&'static str),
+    /// It changes where the points are, and is not applied: an error unless it is off.
+    Refused(&'static str),
     /// A kind of motion that is not read: an error.
     Motion(&'static str),
 }
@@ -63,11 +69,11 @@ pub(super) fn major(word: &str) -> Option<Major> {
         "FINI" | "END" => Major::End,
         "SYN" => Major::Synonym,
         "CUTCOM" => Major::NotApplied("radius compensation; the points are used unchanged"),
-        "ROTABL" | "ROTHED" | "ROTATE" => Major::NotApplied("a rotation of a table or head alone"),
-        "TRACUT" | "TRANS" | "ORIGIN" | "COPY" => {
-            Major::NotApplied("a transformation of the points")
-        }
-        "GOHOME" => Major::NotApplied(
+        "TRANS" => Major::Translation,
+        "ROTABL" | "ROTHED" | "ROTATE" => Major::Refused("a table or head turns by itself"),
+        "TRACUT" | "COPY" => Major::Refused("the points are transformed or repeated"),
+        "ORIGIN" => Major::Refused("the points are displaced, by postprocessors in either sense"),
+        "GOHOME" => Major::Replaced(
             "the motion to the home position; the safe end of the program is used instead",
         ),
         "CALSUB" | "DEFSUB" | "ENDSUB" => Major::NotApplied("subprograms"),
@@ -75,7 +81,7 @@ pub(super) fn major(word: &str) -> Option<Major> {
         "AUXFUN" | "PREFUN" => Major::NotApplied("a function of the control"),
         "OPSKIP" => Major::NotApplied("optional blocks"),
         "RETRCT" => Major::NotApplied("a retraction of the tool"),
-        "CLAMP" | "LOCKX" => Major::NotApplied("a clamp"),
+        "CLAMP" | "LOCKX" => Major::Replaced("a clamp"),
         "AIR" => Major::NotApplied("air"),
         "DNTCUT" | "NOPOST" => Major::NotApplied("a part of the file that is left out"),
         "GOFWD" | "GOLFT" | "GORGT" | "GOBACK" | "GOUP" | "GODOWN" | "GO" | "TLON" | "INDIRV"

@@ -171,7 +171,7 @@ fn what_is_wrong_is_told_with_its_line() {
     );
     assert_eq!(reported("UNITS/MM\nGOFWD/C1\nGOTO/0,0,0,0,0,1\n"), [(2, "motion-not-read")]);
     assert_eq!(reported("UNITS/MM\nABRACA/1\nGOTO/0,0,0,0,0,1\n"), [(2, "unknown-word")]);
-    assert_eq!(reported("UNITS/MM\nROTABL/90\nGOTO/0,0,0,0,0,1\n"), [(2, "not-applied")]);
+    assert_eq!(reported("UNITS/MM\nROTABL/90\nGOTO/0,0,0,0,0,1\n"), [(2, "motion-not-read")]);
     assert_eq!(reported("UNITS/MM\nFEDRAT/-5\nGOTO/0,0,0,0,0,1\n"), [(2, "bad-feed")]);
     assert_eq!(reported("UNITS/MM\n"), [(0, "no-points")]);
     let endless = "GOTO/x\n".repeat(10_000);

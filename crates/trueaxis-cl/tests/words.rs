@@ -1,6 +1,7 @@
 //! What a word of a cutter-location file means in the forms that systems write, and what is refused.
 
 use trueaxis_cl::{ClCycle, ClFile, ClTool, Reading, Word};
+use trueaxis_input::Severity;
 use trueaxis_nc::moves::{Coolant, Feed, FeedMode, SpindleDirection};
 
 const HEAD: &str = "UNITS/MM\nSPINDL/RPM,1200,CLW\nFEDRAT/500,MMPM\nGOTO/0,0,30,0,0,1\n";
@@ -34,6 +35,7 @@ fn law_a_hole_is_the_same_in_every_notation() {
         dwell_s: 0.0,
         feeds_out: false,
         feed,
+        tap: None,
     };
     for line in [
         "CYCLE/DRILL,FEDTO,20,MMPM,100,RAPTO,3",
@@ -80,10 +82,56 @@ fn what_a_cycle_does_not_say_is_not_guessed() {
     refused("CYCLE/DRILL,FEDTO,MMPM,100", "bad-number");
     refused("CYCLE/DRILL,FEDTO,20,MMPM,0", "bad-feed");
     refused("CYCLE/DRILL,FEDTO,20,DWELL,-2", "bad-delay");
-    refused("CYCLE/TAP,20,1", "motion-not-read");
+    refused("CYCLE/THREAD,20,1", "motion-not-read");
     for line in ["CYCLE/DRILL,FEDTO,20,MMPT,0.1,RAPTO,3", "CYCLE/BRKCHP,FEDTO,20,STEP,5"] {
         refused(line, "cycle-not-applied");
     }
+}
+
+/// An M8 thread, 20 deep, from 3 above, in the words of every system; 20 threads per inch are 1.27 mm.
+#[test]
+fn law_a_thread_is_the_same_in_every_notation() {
+    let tapped = |line: &str| match word(line) {
+        (Word::Cycle(cycle), found) => {
+            let heights = [cycle.depth_mm, cycle.clearance_mm, cycle.retract_mm];
+            assert!(
+                cycle.feeds_out && heights == [20.0, 3.0, 12.0] && cycle.dwell_s == 0.0,
+                "{line}"
+            );
+            (cycle.tap.expect("a thread").pitch_mm, cycle.feed.map(|f| f.value), found)
+        }
+        other => panic!("{line} {other:?}"),
+    };
+    for kind in ["TAP", "RTAP", "RIGID", "tap"] {
+        for pitch in ["MMPR,1.25", "1.25,MMPR", "PERREV,1.25", "PITCH,1.25"] {
+            let line = format!("CYCLE/{kind},FEDTO,20,{pitch},RAPTO,3,RTRCTO,12");
+            let (found, _, said) = tapped(&line);
+            assert_eq!((found, said), (Some(1.25), vec![]), "{line}");
+        }
+    }
+    let (pitch, _, _) = tapped("CYCLE/TAP,DEPTH,20,TPI,20,CLEAR,3,RETURN,12");
+    assert_eq!(pitch, Some(1.27));
+    // Without a pitch it is that of feed and speed where the hole is.
+    let of_feed = tapped("CYCLE/TAP,FEDTO,20,MMPM,1500,RAPTO,3,RTRCTO,12");
+    assert_eq!(of_feed, (None, Some(1500.0), vec![]));
+    let both = tapped("CYCLE/TAP,FEDTO,20,MMPM,1500,MMPR,1.25,RAPTO,3,RTRCTO,12");
+    assert_eq!(both, (Some(1.25), Some(1500.0), vec![]));
+    // The spindle reverses at the bottom: nothing waits there.
+    let waits = tapped("CYCLE/TAP,FEDTO,20,MMPR,1.25,RAPTO,3,RTRCTO,12,DWELL,0.5");
+    assert_eq!(waits.2, ["cycle-not-applied"]);
+    for (words, code) in [
+        ("MMPR,1.25,PITCH,1.5", "contradicting-pitch"),
+        ("PITCH,1.25,TPI,16", "contradicting-pitch"),
+        ("PITCH,0", "bad-cycle"),
+        ("PITCH,-1", "bad-cycle"),
+        ("PITCH,30", "bad-cycle"),
+        ("TPI,0", "bad-cycle"),
+        ("MMPR,1.25,STEP,5", "bad-cycle"),
+        ("PITCH,MMPR,1.25", "bad-number"),
+    ] {
+        refused(&format!("CYCLE/TAP,FEDTO,20,{words},RAPTO,3"), code);
+    }
+    refused("CYCLE/DRILL,FEDTO,20,MMPM,100,RAPTO,3,PITCH,1.25", "cycle-not-applied");
 }
 
 #[test]
@@ -237,4 +285,63 @@ fn circles_state_the_radius_of_their_points() {
     for line in ["CIRCLE/0,0,0,0,0,1,500", "CIRCLE/0,0,0,0,0,1,10.1", "CIRCLE/0,0,0,0,0,1,10,1"] {
         assert_eq!(circle(line), [(3, "bad-circle")], "{line}");
     }
+}
+
+/// Words that move the points are applied or refused; what changes neither motion nor spindle nor coolant is a note.
+#[test]
+fn words_that_move_the_points_are_applied_or_refused() {
+    for line in [
+        "TRACUT/1,0,0,5,0,1,0,0,0,0,1,0",
+        "TRACUT/M1",
+        "ORIGIN/1,0,0",
+        "COPY/1,SAME,3",
+        "ROTABL/90",
+        "ROTHED/ATANGL,30",
+        "ROTATE/TABLE,90",
+    ] {
+        refused(line, "motion-not-read");
+    }
+    for line in ["TRACUT/NOMORE", "ORIGIN/0,0,0", "ROTABL/OFF", "COPY/OFF"] {
+        assert_eq!(word(line), (Word::Noted, vec![]), "{line}");
+    }
+    for line in ["TRANS/1,2", "TRANS/1,2,3,4"] {
+        refused(line, "bad-point");
+    }
+    refused("TRANS/1e9,0,0", "too-far");
+    let severities = |line: &str| -> Vec<Severity> {
+        let text = format!("{HEAD}{line}\n").into_bytes();
+        let (_, problems) = ClFile::read("a", text, &Reading::default());
+        problems.iter().map(|p| p.severity).collect()
+    };
+    for line in ["GOHOME", "CLAMP/ON", "LOCKX/C"] {
+        assert_eq!(severities(line), [Severity::Note], "{line}");
+    }
+    for line in ["CUTCOM/LEFT", "AUXFUN/8", "RETRCT", "INSERT/M4", "AIR/ON", "CALSUB/1"] {
+        assert_eq!(severities(line), [Severity::Warning], "{line}");
+    }
+}
+
+/// TRANS/x,y,z is added to all points after it, in every form of them, and taken away where the file is rewritten.
+#[test]
+fn trans_displaces_points_and_circles() {
+    let text = "UNITS/INCHES\nFEDRAT/9\nGOTO/1,0,0,0,0,1\nTRANS/1,2,3\nGOTO/1,0,0,0,0,1\n\
+                CIRCLE/0,0,0,0,0,1,1\nGOTO/0,1,0\nGODLTA/0,0,1\nTRANS/OFF\nGOTO/1,0,0,0,0,1\n";
+    let (file, problems) = ClFile::read("a", text.as_bytes().to_vec(), &Reading::default());
+    assert!(problems.iter().next().is_none(), "{problems:?}");
+    let inches = |p: [f64; 3]| p.map(|v| (v / 25.4 * 1e9).round() / 1e9);
+    let tips: Vec<_> = file.points().map(|(_, p)| inches(p.tip_mm)).collect();
+    let moved = [[2.0, 2.0, 3.0], [1.0, 3.0, 3.0], [1.0, 3.0, 4.0]];
+    assert_eq!(tips, [&[[1.0, 0.0, 0.0]][..], &moved, &[[1.0, 0.0, 0.0]]].concat());
+    let centre = file.records().iter().find_map(|r| match &r.word {
+        Word::Circle(circle) => Some(inches(circle.center_mm)),
+        _ => None,
+    });
+    assert_eq!(centre, Some([1.0, 2.0, 3.0]));
+    let again = ClFile::read("a", file.rewritten(), &Reading::default()).0;
+    let again: Vec<_> = again.points().map(|(_, p)| inches(p.tip_mm)).collect();
+    assert_eq!(again, tips);
+    let said = |text: &str| read(&format!("{HEAD}{text}")).1;
+    assert_eq!(said("TRANS/1,0,0\nTRANS/2,0,0\n"), [(6, "motion-not-read")]);
+    assert_eq!(said("TRANS/1,0,0\nTRANS/0,0,0\nTRANS/2,0,0\nGOTO/1,1,1\n"), []);
+    assert_eq!(said("TRANS/1,0,0\nGODLTA/1\n"), [(6, "no-place")]);
 }

@@ -24,7 +24,8 @@ Examples:
 
 Shows before the measurement which errors each path responds to, with what uncertainty they will be
 determined, which combinations are not observable, and which measurement separates them. -o also writes
-campaign.toml: the campaign with the chosen poses, which `measure` and `identify` read. Exit status: 0 done, 1 a program would cause a collision or leave the travel, 2 unusable input."
+campaign.toml: the campaign with the chosen poses, which `measure` and `identify` read. A program that would
+cause a collision or leave the travel (NOT SAFE) is written with --write-unsafe only. Exit status: 0 done, 1 there is one, 2 unusable input."
 )]
 pub struct Arguments {
     #[command(subcommand)]
@@ -53,6 +54,9 @@ struct CampaignArguments {
     /// Write one program and one table of poses per path, and the campaign with the chosen poses, into this folder
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
+    /// With -o: write programs that are NOT SAFE, too, to look at them
+    #[arg(long)]
+    write_unsafe: bool,
     #[command(flatten)]
     door: DoorArguments,
 }
@@ -71,6 +75,7 @@ fn run_campaign(arguments: &CampaignArguments) -> Outcome {
         campaign: file.clone(),
         control: arguments.control.clone(),
         output: arguments.output.clone(),
+        write_unsafe: arguments.write_unsafe,
     };
     arguments.door.door().ask(&question)
 }

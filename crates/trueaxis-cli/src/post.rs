@@ -28,8 +28,9 @@ A test piece is cut in one turn for each [[condition]] of its file. The points a
 places of the tip from the workpiece zero (G54), with --tcp off positions of the axes from the machine zero, tool
 length and workpiece included. Arcs and drilling cycles of the file are written as such where the control has them
 in that place (docs/post.md).
-Exit status: 0 done, 1 --verify found more than the tolerances (then nothing is written), 2 unusable
-input, or the path leaves the travel.")]
+Exit status: 0 done, 1 --verify found more than the tolerances (then nothing is written), or words of the file that
+can change motion, spindle or coolant are not applied (NOT APPLIED; the program is written), 2 unusable input, or the
+path leaves the travel.")]
 pub struct Arguments {
     #[command(flatten)]
     machine: MachineArguments,

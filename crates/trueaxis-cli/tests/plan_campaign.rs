@@ -107,3 +107,24 @@ fn a_ball_larger_than_the_length_of_the_probe_is_refused() {
         assert_eq!(ran.err.contains("error[contradiction]"), status == 2, "{}", ran.err);
     }
 }
+
+/// A dwell below 0 counted as 0.
+#[test]
+fn a_negative_dwell_is_an_error_with_its_place() {
+    let folder = Folder::new("plan-dwell");
+    let root = command::root();
+    let text = read_to_string(root.join("examples/04_plan/probe-ball.toml")).expect("the campaign");
+    let text = text.replace("../../", &format!("{}/", root.display()));
+    let at = text.find("[[path]]").expect("a path") + "[[path]]\n".len();
+    let line = text[..at].matches('\n').count() + 1;
+    for (dwell, is_bad) in [("-1 s", true), ("0 s", false)] {
+        let campaign = folder.path("c.toml");
+        let rest = text[at..].lines().filter(|l| !l.starts_with("dwell"));
+        let rest = rest.collect::<Vec<_>>().join("\n");
+        write(&campaign, format!("{}dwell = \"{dwell}\"\n{rest}\n", &text[..at])).expect("written");
+        let ran = trueaxis(&["plan", &campaign]);
+        assert_eq!(ran.status == 2, is_bad, "{}", ran.err);
+        assert_eq!(ran.err.contains("error[bad-dwell]"), is_bad, "{}", ran.err);
+        assert_eq!(ran.err.contains(&format!("c.toml:{line}:")), is_bad, "{}", ran.err);
+    }
+}

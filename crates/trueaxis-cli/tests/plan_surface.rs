@@ -171,3 +171,45 @@ fn a_table_that_was_filled_in_stays() {
     assert_eq!(again.json()["schema"], "trueaxis/refused/1");
     assert_eq!(std::fs::read_to_string(&path).expect("a table"), filled);
 }
+
+/// The study of the bangle elsewhere, with a change.
+fn bangle(folder: &Folder, from: &str, to: &str) -> String {
+    let here = root().join("examples/04_plan").display().to_string();
+    let text = std::fs::read_to_string(root().join(STUDY)).expect("the study");
+    assert!(text.contains(from), "{from}");
+    let text = text.replace(from, to);
+    let text = text.replace("\"../", &format!("\"{here}/../"));
+    folder.file("s.toml", text.replace("\"bangle-", &format!("\"{here}/bangle-")))
+}
+
+/// A program that is not safe is a file only where that is asked for.
+#[test]
+fn what_is_not_safe_is_not_written() {
+    let folder = Folder::new("surface-not-safe");
+    // A handle of 80 mm just above the ball runs into the part.
+    let thick = "shape = [[\"1.2 mm\", \"2 mm\"], [\"80 mm\", \"88 mm\"]]";
+    let study = bangle(&folder, "shape = [[\"1.2 mm\", \"45 mm\"], [\"20 mm\", \"45 mm\"]]", thick);
+    let out = folder.path("out");
+    let words = ["plan", "probe-surface", &study, "--control", "fanuc", "-o", &out];
+    let ran = trueaxis(&words);
+    assert_eq!(ran.status, 1, "{}{}", ran.out, ran.err);
+    assert!(ran.out.contains("NOT SAFE") && ran.err.contains("nothing was written"), "{}", ran.err);
+    assert!(!std::path::Path::new(&out).exists());
+    let ran = trueaxis(&[&words[..], &["--write-unsafe"]].concat());
+    assert_eq!(ran.status, 1, "{}", ran.err);
+    assert!(std::path::Path::new(&out).join("surface.nc").exists());
+}
+
+#[test]
+fn another_ball_and_a_negative_noise_are_named() {
+    let folder = Folder::new("surface-ball");
+    let ran =
+        |from: &str, to: &str| trueaxis(&["plan", "probe-surface", &bangle(&folder, from, to)]);
+    let ball = ran("ball_diameter = \"2 mm\"", "ball_diameter = \"20 mm\"");
+    let said = "the ball has 20 mm here, 2 mm in the calibration";
+    assert!(ball.err.contains("warning[other-ball]") && ball.err.contains(said), "{}", ball.err);
+    let same = ran("noise = \"0.5 um\"", "noise = \"0 um\"");
+    assert!(same.status == 0 && !same.err.contains("other-ball"), "{}", same.err);
+    let noise = ran("noise = \"0.5 um\"", "noise = \"-0.5 um\"");
+    assert!(noise.status == 2 && noise.err.contains("error[bad-size]: `noise`"), "{}", noise.err);
+}

@@ -94,6 +94,61 @@ fn what_cannot_be_used_is_refused_with_its_line() {
     assert!(ran.status == 2 && ran.err.contains("error[bad-template]"), "{}", ran.err);
 }
 
+/// A path that is proved is not the whole file where words are not applied: the verdict, the document and the exit
+/// status say so. What changes neither motion nor spindle nor coolant stays a note.
+#[test]
+fn words_that_are_not_applied_are_in_the_verdict() {
+    let folder = Folder::new("post-not-applied");
+    let out = folder.path("a.nc");
+    let post = |words: &str, more: &[&str]| {
+        let text = format!("UNITS/MM\nLOADTL/1\nFEDRAT/500\n{words}GOTO/0,0,9,0,0,1\nGOTO/9,0,9\n");
+        let file = folder.file("a.cls", text);
+        let _ = std::fs::remove_file(&out);
+        let arguments = ["post", ENGRAVER, &file, "--control", "fanuc", "-o", &out];
+        trueaxis(&[&arguments, more].concat())
+    };
+    let ran = post("CUTCOM/LEFT\nAUXFUN/8\n", &["--verify"]);
+    assert_eq!(ran.status, 1, "{}", ran.err);
+    assert!(
+        ran.out.contains("PATH: as the CL file; NOT APPLIED: 2 words, listed above"),
+        "{}",
+        ran.out
+    );
+    assert!(!ran.out.contains("PASS"), "{}", ran.out);
+    assert!(std::path::Path::new(&out).exists());
+    let ran = post("INSERT/M4\n", &[]);
+    assert!(
+        ran.status == 1 && ran.out.contains("NOT APPLIED: 1 word, listed above"),
+        "{}",
+        ran.out
+    );
+    for (words, count) in [("CYCLE/BORE,FEDTO,5,MMPM,50,RAPTO,3\n", 1), ("ABRACA/1\n", 1), ("", 0)]
+    {
+        let ran = post(words, &["--verify", "--format", "json"]);
+        let found = ran.json();
+        assert_eq!(
+            (ran.status, &found["not_applied"]),
+            (i32::from(count > 0), &count.into()),
+            "{words}"
+        );
+        assert_eq!(
+            (&found["written"], &found["verify"]["within_tolerance"]),
+            (&true.into(), &true.into())
+        );
+    }
+    let ran = post("GOHOME\nCLAMP/ON\n", &["--verify"]);
+    assert!(ran.status == 0 && ran.out.contains("PASS"), "{}{}", ran.out, ran.err);
+    // Points that a word displaces are displaced, or there is no program.
+    let ran = post("TRANS/0,5,0\n", &["--verify"]);
+    let program = std::fs::read_to_string(&out).expect("a program");
+    assert!(ran.status == 0 && program.contains("Y5."), "{program}");
+    for words in ["TRACUT/1,0,0,5,0,1,0,0,0,0,1,0\n", "ORIGIN/5,0,0\n", "ROTABL/90\n"] {
+        let ran = post(words, &["--verify"]);
+        assert!(ran.status == 2 && ran.err.contains("error[motion-not-read]"), "{}", ran.err);
+        assert!(!std::path::Path::new(&out).exists());
+    }
+}
+
 #[test]
 fn templates_are_shown_to_be_edited() {
     let folder = Folder::new("post-template");

@@ -516,3 +516,68 @@ fn law_optional_blocks_are_left_out_as_if_they_were_not_there() {
         assert!(executed[0] > left_out[0] + 1.0, "{ending} {executed:?} {left_out:?}");
     }
 }
+
+/// The offset of another tool is said with its block, where its length is another one, by both verbs.
+#[test]
+fn the_length_of_another_tool_is_said() {
+    let mill = "machines/three-axis-mill/machine.toml";
+    let folder = Folder::new("offset-of-other-tool");
+    let set_up = |second: &str| {
+        let text = format!(
+            "[work_offset.G54]\nZ = \"-100 mm\"\n[tool.1]\nlength = \"100 mm\"\n[tool.2]\nlength = \"{second}\"\n"
+        );
+        folder.file("setup.toml", text)
+    };
+    for control in ["fanuc", "haas", "linuxcnc"] {
+        for (call, second, said) in [
+            ("T1 M6\nG43 H2", "80 mm", true),
+            ("T1 M6\nG43 H2", "100 mm", false),
+            ("T2 M6\nG43 H2", "80 mm", false),
+            ("T1 M6\nG43 H0", "80 mm", false),
+            ("T1 M6\nG44 H2", "80 mm", true),
+        ] {
+            if control == "linuxcnc" && call.contains("G44") {
+                continue;
+            }
+            let set_up = set_up(second);
+            let text = format!("%\nG21 G90 G94 G54\n{call}\nG1 X1. F100.\nM30\n%\n");
+            let program = folder.file("a.nc", text);
+            for verb in ["simulate", "trace"] {
+                let words = [verb, mill, &program, "--control", control, "--setup", &set_up];
+                let more: &[&str] =
+                    if verb == "simulate" { &["--no-report"] } else { &["--block", "5"] };
+                let ran = trueaxis(&[&words, more].concat());
+                let text =
+                    "H2 compensates 80.0000 mm, and tool 1 in the spindle is 100.0000 mm long";
+                let found =
+                    ran.err.contains("warning[offset-of-other-tool]") && ran.err.contains(text);
+                assert_eq!(found, said, "{verb} {control} {call} {second}: {}", ran.err);
+                assert_eq!(ran.err.contains("a.nc:4:"), said, "{}", ran.err);
+            }
+        }
+    }
+}
+
+/// Two diameters of one tool are named, in a set-up file and in the library of a machine file.
+#[test]
+fn a_diameter_that_is_not_that_of_the_shape_is_said() {
+    let folder = Folder::new("diameter-not-of-shape");
+    let program = folder.file("a.nc", "%\nG21 G90 G94 G54\nT1 M6\nG43 H1\nM30\n%\n");
+    let mill =
+        std::fs::read_to_string(command::root().join("machines/three-axis-mill/machine.toml"));
+    let mill = mill.expect("the machine");
+    for (diameter, said) in [("12 mm", false), ("10 mm", true)] {
+        let tool = format!(
+            "length = \"100 mm\"\ndiameter = \"{diameter}\"\nshape = [[\"12 mm\", \"60 mm\"], [\"32 mm\", \"30 mm\"]]\n"
+        );
+        let set_up = folder.file("setup.toml", format!("[work_offset.G54]\n[tool.1]\n{tool}"));
+        let machine = folder.file("machine.toml", format!("{mill}\n[tool.library.thick]\n{tool}"));
+        let code = "warning[diameter-not-of-shape]";
+        let options = ["--control", "fanuc", "--no-report", "--no-collisions", "--setup", &set_up];
+        let known = "machines/three-axis-mill/machine.toml";
+        let ran = trueaxis(&[&["simulate", known, &program][..], &options].concat());
+        assert_eq!(ran.err.contains(code), said, "{}", ran.err);
+        let ran = trueaxis(&["check", &machine]);
+        assert_eq!(ran.err.contains(code), said, "{}", ran.err);
+    }
+}

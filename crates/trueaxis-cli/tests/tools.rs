@@ -365,3 +365,22 @@ fn a_diameter_is_measured_where_the_tool_has_it() {
     let taper = planned("diameter = \"10 mm\"\ncutter = { side = \"5 deg\" }", "5 mm");
     assert!(taper.status == 2 && taper.err.contains("is a taper"), "{}", taper.err);
 }
+
+/// Feed and speed of the setter are possible for the machine: 24 m/min, 40 000 1/min.
+#[test]
+fn a_setter_asks_for_no_more_than_the_machine_can() {
+    let folder = Folder::new("setter-limits");
+    let example = std::fs::read_to_string(root().join(SETUP)).expect("the set-up");
+    for (from, to, said) in [
+        ("feed = \"50 mm/min\"", "feed = \"25 m/min\"", "X moves with at most 24000.0000 mm/min"),
+        ("feed = \"50 mm/min\"", "feed = \"25 m/min\"", "Z moves with at most 24000.0000 mm/min"),
+        ("speed = \"600 rpm\"", "speed = \"50000 rpm\"", "turns with at most 40000.0000 1/min"),
+        ("speed = \"600 rpm\"", "speed = \"39000 rpm\"", ""),
+    ] {
+        let setup = folder.file("s.toml", example.replace(from, to));
+        let ran = trueaxis(&["plan", "tool-setting", MACHINE, &setup, "--control", "fanuc"]);
+        assert_eq!(ran.status, if said.is_empty() { 0 } else { 2 }, "{}", ran.err);
+        assert!(ran.err.contains(said), "{}", ran.err);
+        assert_eq!(ran.err.contains("error[setter-beyond-machine]"), !said.is_empty());
+    }
+}

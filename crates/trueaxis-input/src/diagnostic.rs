@@ -168,6 +168,16 @@ impl Diagnostics {
         self.0.iter().any(|d| d.severity == Severity::Error)
     }
 
+    /// How many there are.
+    pub(crate) fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether one of those from a number on is an error.
+    pub(crate) fn has_errors_from(&self, first: usize) -> bool {
+        self.0.iter().skip(first).any(|d| d.severity == Severity::Error)
+    }
+
     /// The diagnostics in the order of file, line and column.
     pub fn sorted(mut self) -> Vec<Diagnostic> {
         self.0.sort_by(|a, b| a.place.cmp(&b.place));

@@ -394,6 +394,8 @@ pub struct Section<'s> {
     span: Range<usize>,
     table: &'s DeTable<'s>,
     asked: RefCell<BTreeSet<String>>,
+    /// How many problems there were when a key was asked for last.
+    problems_then: Cell<usize>,
 }
 
 impl<'s> Section<'s> {
@@ -403,7 +405,8 @@ impl<'s> Section<'s> {
         span: Range<usize>,
         table: &'s DeTable<'s>,
     ) -> Self {
-        Self { source, name, span, table, asked: RefCell::default() }
+        let problems_then = Cell::new(source.problems.borrow().count());
+        Self { source, name, span, table, asked: RefCell::default(), problems_then }
     }
 
     /// The files that the text may name.
@@ -449,6 +452,7 @@ impl<'s> Section<'s> {
     /// The value of a key, if it is there.
     pub fn get(&self, key: &str) -> Option<Item<'s>> {
         self.asked.borrow_mut().insert(key.to_owned());
+        self.problems_then.set(self.source.problems.borrow().count());
         self.table.get(key).map(|value| Item { source: self.source, value })
     }
 
@@ -506,13 +510,24 @@ impl<'s> Section<'s> {
         format!("[{}]", self.name)
     }
 
+    /// A reader that meets an error may give up: keys that it would have asked for after it are not unknown. Where
+    /// an error came after the last key that was asked for, only what looks like one of the known keys is named.
     fn report_unknown_keys(&self) {
+        let gave_up = self.source.problems.borrow().has_errors_from(self.problems_then.get());
         let mut asked = self.asked.borrow_mut();
         // Every file may have it; it is named where it is described.
         if self.name.is_empty() && !self.table.contains_key("plausible") {
             asked.remove("plausible");
         }
+        let misspelt = |key: &str| {
+            asked
+                .iter()
+                .any(|known| !self.table.contains_key(known.as_str()) && is_nearly(key, known))
+        };
         for (key, _) in self.table.iter().filter(|(k, _)| !asked.contains(k.get_ref().as_ref())) {
+            if gave_up && !misspelt(key.get_ref()) {
+                continue;
+            }
             let known = asked.iter().map(String::as_str).collect::<Vec<_>>().join(", ");
             self.source.error(
                 "unknown-key",
@@ -521,6 +536,21 @@ impl<'s> Section<'s> {
                 &format!("known entries: {known}"),
             );
         }
+    }
+}
+
+/// Whether one word becomes the other by one letter more, less, other, or exchanged with the next one.
+fn is_nearly(a: &str, b: &str) -> bool {
+    let [a, b] =
+        [a, b].map(|word| word.chars().map(|c| c.to_ascii_lowercase()).collect::<Vec<_>>());
+    let same = |pair: &(&char, &char)| pair.0 == pair.1;
+    let head = a.iter().zip(&b).take_while(same).count();
+    let most = a.len().min(b.len()) - head;
+    let tail = a.iter().rev().zip(b.iter().rev()).take(most).take_while(same).count();
+    match [&a, &b].map(|word| &word[head..word.len() - tail]) {
+        [[], []] | [[_], []] | [[], [_]] | [[_], [_]] => true,
+        [[c, d], [e, f]] => c == f && d == e,
+        _ => false,
     }
 }
 
@@ -538,6 +568,53 @@ mod tests {
         let problems = source.finish();
         let all: Vec<_> = problems.iter().map(|d| (d.code, d.place.line)).collect();
         assert_eq!((name, all), (false, vec![("over-limit", MOST_TOML_LINES + 1)]));
+    }
+
+    /// What a reader had asked for, had it not given up, is not blamed; what it had not, and a slip of the pen, are.
+    #[test]
+    fn keys_beside_a_wrong_one_are_not_blamed() {
+        let codes = |text: &str, gives_up: bool| -> Vec<(&'static str, usize)> {
+            let source = SourceText::new("m.toml", text);
+            source.read(|root| {
+                let tool = root.section("tool", |tool| {
+                    let length = tool.quantity("length", Dimension::Length);
+                    if gives_up && length.is_none() {
+                        return None;
+                    }
+                    tool.quantity("diameter", Dimension::Length)
+                });
+                if tool.flatten().is_some() {
+                    root.get("name");
+                }
+            });
+            source.finish().iter().map(|p| (p.code, p.place.line)).collect()
+        };
+        let wrong = ("wrong-unit", 2);
+        let text = "tool.diameter = '9 mm'\ntool.length = '1 s'\nname = 'a'\n";
+        assert_eq!(codes(text, true), [wrong]);
+        assert_eq!(codes(text, false), [wrong]);
+        // The reader has gone on: the key is not one of its own.
+        let more = format!("{text}tool.colour = 'red'\n");
+        assert_eq!(codes(&more, false), [wrong, ("unknown-key", 4)]);
+        assert_eq!(codes(&more, true), [wrong]);
+        let misspelt = "tool.lenght = '1 mm'\ntool.diameter = '9 s'\n";
+        assert_eq!(codes(misspelt, false), [("wrong-unit", 2), ("unknown-key", 1)]);
+    }
+
+    #[test]
+    fn words_that_are_nearly_the_same() {
+        for (a, b) in [
+            ("widht", "width"),
+            ("lenth", "length"),
+            ("Name", "name"),
+            ("axiss", "axis"),
+            ("feet", "feed"),
+        ] {
+            assert!(is_nearly(a, b) && is_nearly(b, a), "{a} {b}");
+        }
+        for (a, b) in [("colour", "length"), ("speed", "feed"), ("table", "stylus"), ("ab", "")] {
+            assert!(!is_nearly(a, b) && !is_nearly(b, a), "{a} {b}");
+        }
     }
 
     #[test]

@@ -13,7 +13,7 @@ mod table_text;
 
 pub use chain_text::ChainText;
 pub use known_text::KnownRow;
-pub use model_text::{read_shape, read_tool_shape};
+pub use model_text::{compare_with_shape, read_shape, read_tool_shape};
 pub use place_text::{read_direction, read_pose, read_tip, read_vector_mm};
 
 use crate::active::read_active;
@@ -429,6 +429,7 @@ fn read_assembly(name: &str, section: &Section<'_>) -> Option<ToolAssembly> {
     });
     let holder = section.text("holder").map(str::to_owned);
     let shape = model_text::read_tool_shape(section).unwrap_or_default();
+    model_text::compare_with_shape(section, diameter_mm, &shape);
     let length_mm = length?.quantity_of(Quantity::ToolLength)?;
     let name = name.to_owned();
     Some(ToolAssembly { name, length_mm, diameter_mm, corner_radius_mm, holder, shape })

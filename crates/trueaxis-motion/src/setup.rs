@@ -20,7 +20,9 @@ use trueaxis_input::plausible::Quantity;
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, Place, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::chain::Link;
-use trueaxis_machine::file::{read_pose, read_shape, read_tip, read_tool_shape};
+use trueaxis_machine::file::{
+    compare_with_shape, read_pose, read_shape, read_tip, read_tool_shape,
+};
 use trueaxis_machine::models::{Shape, ToolSegment};
 use trueaxis_nc::moves::{Axis, Frame, Position};
 use trueaxis_nc::{Control, OwnCode, Program, Settings, sinumerik};
@@ -430,6 +432,9 @@ fn read_tool(section: &Section<'_>, machine: &Machine) -> Option<SetUpTool> {
     tool.corner_radius_mm = corner.unwrap_or(tool.corner_radius_mm);
     if let Some(shape) = read_tool_shape(section) {
         tool.shape = shape;
+    }
+    if section.get("shape").is_some() || section.get("diameter").is_some() {
+        compare_with_shape(section, tool.diameter_mm, &tool.shape);
     }
     tool.cutter = section.section("cutter", cutter::read_cutter).flatten();
     if section.get("cutter").is_some()

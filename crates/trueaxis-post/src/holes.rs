@@ -9,7 +9,7 @@ use crate::write::Post;
 use crate::{Fault, FeedRule, HolePlace};
 use trueaxis_geometry::Vec3;
 use trueaxis_nc::Control;
-use trueaxis_nc::moves::{Coordinates, Feed};
+use trueaxis_nc::moves::{Coordinates, Feed, FeedMode};
 use trueaxis_writer::{Block, Hole, TipWords};
 
 impl Post<'_> {
@@ -40,11 +40,15 @@ impl Post<'_> {
             return Ok(None);
         };
         let inside = drilled.last < leg.end();
-        if !inside || !self.has_cycles() {
-            return Ok(None);
-        }
-        let Some(hole) = self.cycle(drilled, leg, at) else { return Ok(None) };
         let line = path.strokes.line(index);
+        let hole = (inside && self.has_cycles()).then(|| self.cycle(drilled, leg, at)).flatten();
+        let Some(hole) = hole else {
+            // A thread cannot be cut by lines.
+            return match drilled.thread.filter(|_| index >= drilled.down) {
+                Some(_) => Err(no_cycle(line)),
+                None => Ok(None),
+            };
+        };
         for k in index..=drilled.last {
             self.cutter.inside(&leg.command(path, k), line)?;
         }
@@ -101,7 +105,7 @@ impl Post<'_> {
             && cycle.clearance_mm >= 0.0
             && cycle.retract_mm >= cycle.clearance_mm - SAME_MM;
         let even = first > 0.0 && (first >= cycle.depth_mm || first == further);
-        if cycle.feeds_out
+        if cycle.feeds_out && drilled.thread.is_none()
             || up.norm() > UPRIGHT_RAD
             || !ends.into_iter().all(still)
             || !heights
@@ -120,7 +124,11 @@ impl Post<'_> {
             retract_mm: round(words.z + cycle.retract_mm),
             peck_mm: (first < cycle.depth_mm).then_some(first),
             dwell_s: cycle.dwell_s,
-            feed: self.feed_of_drilling(drilled, at),
+            feed: match drilled.thread {
+                Some(_) => Feed { mode: FeedMode::PerMinute, value: drilled.feed },
+                None => self.feed_of_drilling(drilled, at),
+            },
+            thread: drilled.thread,
         };
         hole.is_possible(self.options.control).then_some(hole)
     }
@@ -136,5 +144,14 @@ impl Post<'_> {
         };
         let (above, bottom) = (node(drilled.cycle.clearance_mm), node(-drilled.cycle.depth_mm));
         feed_of(self.machine, self.options, &above, &bottom, drilled.feed)
+    }
+}
+
+fn no_cycle(line: u32) -> Fault {
+    Fault {
+        line,
+        code: "thread-needs-cycle",
+        message: "the control has no tapping cycle for this thread in such a program".into(),
+        hint: "give --tcp length, without --lines-only and inverse time; the tool along Z of the program",
     }
 }

@@ -20,6 +20,7 @@ mod holes;
 mod path;
 mod places;
 mod strokes;
+mod tapped;
 mod verify;
 mod write;
 
@@ -133,6 +134,11 @@ impl Posted {
     /// How many holes are drilled by cycles of the control.
     pub fn holes(&self) -> usize {
         self.drilled.len()
+    }
+
+    /// How many of them are threads.
+    pub fn threads(&self) -> usize {
+        self.drilled.iter().filter(|place| self.path.holes[place.hole].thread.is_some()).count()
     }
 }
 

@@ -1,5 +1,7 @@
 //! The strokes of the tool: what the records of the file add up to.
 
+mod thread;
+
 use crate::PostOptions;
 use crate::strokes::Strokes;
 use trueaxis_cl::{ClCircle, ClCycle, ClPath, ClPoint, ClTool, Word};
@@ -8,6 +10,7 @@ use trueaxis_geometry::{Vec3, angle};
 use trueaxis_input::{Diagnostics, Place};
 use trueaxis_nc::Control;
 use trueaxis_nc::moves::{Coolant, Feed, FeedMode, SpindleDirection};
+use trueaxis_writer::Thread;
 
 /// Where the tool stands in the workpiece.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,6 +68,8 @@ pub(crate) struct Drilled {
     pub cycle: ClCycle,
     /// mm/min.
     pub feed: f64,
+    /// The thread that is tapped.
+    pub thread: Option<Thread>,
 }
 
 /// Strokes, and events each before the stroke of a number.
@@ -168,7 +173,12 @@ struct Builder<'b> {
     /// What turns and flows by the words of the file, and whether a change of tool has stopped it since.
     spindle: (Option<SpindleDirection>, bool),
     coolant: (Option<Coolant>, bool),
+    /// A thread was tapped since the last motion of another kind.
+    tapped: bool,
     told_no_feed: bool,
+    told_pitch: bool,
+    /// What was refused of threads: once for each reason.
+    refused: Vec<&'static str>,
     tools: usize,
 }
 
@@ -185,7 +195,10 @@ impl Path {
             speed: 0.0,
             spindle: (None, false),
             coolant: (None, false),
+            tapped: false,
             told_no_feed: false,
+            told_pitch: false,
+            refused: Vec::new(),
             tools: 0,
         };
         builder.path.strokes.reserve(file.points());
@@ -279,6 +292,7 @@ impl Builder<'_> {
     fn point(&mut self, point: &ClPoint, line: u32) {
         let (tip, axis) = (Vec3::from(point.tip_mm), Vec3::from(point.axis));
         let circle = self.circle.take();
+        self.after_tapping();
         self.start_again();
         if let Some(cycle) = self.cycle {
             return self.hole(tip, axis, &cycle, point, line);
@@ -308,7 +322,13 @@ impl Builder<'_> {
     /// A drilling cycle: over the hole at the retract height, rapid down to the clearance, down with
     /// feed, at once or by pecks, and up in rapid; a reamer leaves the hole with feed.
     fn hole(&mut self, tip: Vec3, axis: Vec3, cycle: &ClCycle, point: &ClPoint, line: u32) {
-        let Some(feed) = self.feed(false, cycle.feed.or(point.feed), line) else { return };
+        let thread = cycle.tap.map(|tap| self.thread((cycle, &tap), point, line));
+        let feed = match thread {
+            Some(None) => return,
+            Some(Some(thread)) => Some(thread.pitch_mm * thread.speed_per_minute),
+            None => self.feed(false, cycle.feed.or(point.feed), line),
+        };
+        let (Some(feed), thread) = (feed, thread.flatten()) else { return };
         let at = |height: f64| Stand { tip: tip + axis * height, axis };
         let cycle = &ClCycle { retract_mm: self.retract_mm(&at(0.0), cycle), ..*cycle };
         let way = Way::Line;
@@ -339,7 +359,7 @@ impl Builder<'_> {
         let last = self.path.strokes.len();
         self.push(Stroke { to: at(cycle.retract_mm), ..rapid });
         let (surface, cycle) = (Stand { tip, axis }, *cycle);
-        self.path.holes.push(Drilled { begin, down, last, surface, cycle, feed });
+        self.path.holes.push(Drilled { begin, down, last, surface, cycle, feed, thread });
     }
 
     /// The retract height of a hole; with RTRCTO,AUTO where the tool comes from, if that is higher.

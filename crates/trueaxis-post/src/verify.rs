@@ -1,6 +1,7 @@
 //! The proof: the written text, read back and simulated, against the cutter-location file.
 
 use crate::path::{Event, Stand, Stroke};
+use crate::tapped::Tapped;
 use crate::{BlockPlace, PostOptions, Posted};
 use trueaxis_geometry::{Vec3, angle};
 use trueaxis_input::Diagnostics;
@@ -27,6 +28,8 @@ pub struct Verification {
     pub tip_between: Largest,
     /// Of the tool axis, anywhere, rad.
     pub axis_between: Largest,
+    /// Of the lead of tapped threads over their depth, mm; infinite where one is not tapped, or has the other hand.
+    pub lead: Largest,
     /// Axes that leave their travel, or go too fast.
     pub issues: IssueList,
     /// What was found in the program itself.
@@ -42,6 +45,7 @@ impl Verification {
         self.compared > 0
             && !self.problems.has_errors()
             && !self.issues.is_critical()
+            && self.lead.value <= options.tolerance_mm + increment_mm
             && self.tip_between.value <= options.tolerance_mm + increment_mm
             && self.axis_between.value
                 <= options.axis_tolerance_rad + increment_rad + options.pole_rad
@@ -106,10 +110,17 @@ fn compare(
     let mut compare = Compare::with(posted);
     let mut watch = AxisWatch::on(machine);
     let setup = set_up(machine, posted, options);
-    let run = simulate(machine, program, &setup, &simulation, &mut [&mut compare, &mut watch]);
+    let mut tapped = Tapped::with(posted, options.control);
+    let observers: &mut [&mut dyn Observer] = &mut [&mut compare, &mut watch, &mut tapped];
+    let run = simulate(machine, program, &setup, &simulation, observers);
     compare.end_hole();
     compare.skip_to(posted.places.len());
-    Verification { issues: IssueList::of([watch.log]), problems: run.problems, ..compare.found }
+    Verification {
+        lead: tapped.end(),
+        issues: IssueList::of([watch.log]),
+        problems: run.problems,
+        ..compare.found
+    }
 }
 
 /// The set-up for which the program is: with tool length compensation alone its work offset is at the workpiece

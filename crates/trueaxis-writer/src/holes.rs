@@ -1,4 +1,6 @@
-//! Drilling by the cycles of the controls: G81 to G83, CYCLE81 to CYCLE83, cycle 200.
+//! Drilling by the cycles of the controls: G81 to G83, CYCLE81 to CYCLE83, cycle 200; tapping in `threads`.
+
+mod threads;
 
 use crate::number::{Form, increments, push};
 use crate::{Modal, WriteError, WriteResult, Writer};
@@ -23,8 +25,21 @@ pub struct Hole {
     pub peck_mm: Option<f64>,
     /// How long the tool waits at the bottom, s.
     pub dwell_s: f64,
-    /// The feed of drilling.
+    /// The feed of drilling; that of a tap is pitch times speed.
     pub feed: Feed,
+    /// A thread is tapped.
+    pub thread: Option<Thread>,
+}
+
+/// A thread that is tapped in step with the spindle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Thread {
+    /// The pitch, above 0, mm.
+    pub pitch_mm: f64,
+    /// Whether it is a left-hand one: the spindle turns counter-clockwise into it.
+    pub left_hand: bool,
+    /// The speed of the spindle. Unit: 1/min.
+    pub speed_per_minute: f64,
 }
 
 impl Hole {
@@ -32,6 +47,9 @@ impl Hole {
     pub fn is_possible(&self, control: Control) -> bool {
         // Only cycle 200 waits at the bottom and leaves the hole after each peck.
         let both = self.peck_mm.is_some() && self.dwell_s > 0.0;
+        if self.thread.is_some() && (self.peck_mm.is_some() || self.dwell_s > 0.0) {
+            return false;
+        }
         self.feed.mode == FeedMode::PerMinute && (control == Control::Heidenhain || !both)
     }
 
@@ -84,6 +102,7 @@ pub(super) fn first(w: &mut Writer, hole: &Hole) -> WriteResult {
     let numbers =
         Numbers { form: w.form(), decimals: w.decimals.linear, feed_decimals: w.decimals.feed };
     match w.control {
+        _ if hole.thread.is_some() => threads::first(w, hole, &numbers)?,
         Control::Fanuc | Control::Haas | Control::LinuxCnc => g_cycle(w, hole, &numbers)?,
         Control::Sinumerik840d => siemens_cycle(w, hole, &numbers)?,
         Control::Heidenhain => klartext_cycle(w, hole, &numbers)?,
@@ -153,14 +172,19 @@ fn klartext_cycle(w: &mut Writer, hole: &Hole, numbers: &Numbers) -> WriteResult
         (204, numbers.length(hole.retract_mm - hole.surface_mm)?, "2ND SET-UP CLEARANCE"),
         (211, time(hole.dwell_s)?, "DWELL TIME AT DEPTH"),
     ];
-    let mut text = "CYCL DEF 200 DRILLING ~".to_owned();
-    for (number, value, name) in &parameters {
-        let more = if *number == 211 { "" } else { " ~" };
+    let text = "CYCL DEF 200 DRILLING ~".to_owned();
+    klartext_call(w, text, &parameters);
+    Ok(())
+}
+
+/// The parameters of a cycle below its name, and its call.
+fn klartext_call(w: &mut Writer, mut text: String, parameters: &[(u32, String, &str)]) {
+    for (i, (number, value, name)) in parameters.iter().enumerate() {
+        let more = if i + 1 == parameters.len() { "" } else { " ~" };
         let _ = write!(text, "\n    Q{number}={value} ;{name}{more}");
     }
     w.line(text.as_bytes());
     w.line(b"CYCL CALL");
-    Ok(())
 }
 
 pub(super) fn next(w: &mut Writer, place_mm: [f64; 2]) -> WriteResult {
@@ -176,22 +200,25 @@ pub(super) fn next(w: &mut Writer, place_mm: [f64; 2]) -> WriteResult {
     let line = match w.control {
         Control::Heidenhain => format!("L{words} R0 FMAX M99"),
         Control::Sinumerik840d => format!("G0{words}"),
+        Control::LinuxCnc if hole.thread.is_some() => format!("G0{words}"),
         _ => words.trim_start().to_owned(),
     };
     w.line(line.as_bytes());
-    if w.control == Control::Sinumerik840d {
-        let numbers = Numbers { form: w.form(), decimals, feed_decimals: w.decimals.feed };
-        siemens_cycle(w, &Hole { place_mm, ..hole }, &numbers)?;
+    let numbers = Numbers { form: w.form(), decimals, feed_decimals: w.decimals.feed };
+    let hole = Hole { place_mm, ..hole };
+    match (w.control, hole.thread.is_some()) {
+        (Control::Sinumerik840d | Control::LinuxCnc, true) => threads::first(w, &hole, &numbers),
+        (Control::Sinumerik840d, false) => siemens_cycle(w, &hole, &numbers),
+        _ => Ok(()),
     }
-    Ok(())
 }
 
 /// After it all modal words are written again.
 pub(super) fn end(w: &mut Writer) {
-    if w.hole.take().is_none() {
-        return;
-    }
+    let Some(hole) = w.hole.take() else { return };
     match w.control {
+        // Its taps are moves.
+        Control::LinuxCnc if hole.thread.is_some() => {}
         // They call their cycles hole by hole.
         Control::Heidenhain | Control::Sinumerik840d => {}
         _ => w.line(b"G80"),

@@ -39,7 +39,7 @@ mod template;
 mod words;
 
 pub use arc::CircularArc;
-pub use holes::Hole;
+pub use holes::{Hole, Thread};
 pub use number::MOST_DECIMALS;
 pub use template::{BUILT_IN, Templates};
 

@@ -240,3 +240,136 @@ fn a_surface_speed_leaves_no_feed_per_revolution() {
     let codes: Vec<_> = problems.iter().map(|p| p.code).collect();
     assert!(posted.is_none() && codes == ["no-feed"], "{codes:?}");
 }
+
+fn with_tap(spindle: &str, cycle: &str) -> String {
+    format!(
+        "UNITS/MM\nLOADTL/1\nSPINDL/{spindle}\nRAPID\nGOTO/0,0,40,0,0,1\n{cycle}\n\
+         GOTO/10,0,0,0,0,1\nGOTO/20,0,2\nGOTO/30,5,2\nCYCLE/OFF\nFEDRAT/300,MMPM\nGOTO/50,0,40\nGOTO/60,0,40\nFINI\n"
+    )
+}
+
+const M8: &str = "CYCLE/TAP,FEDTO,20,MMPR,1.25,RAPTO,3,RTRCTO,12";
+
+/// What a control writes for three threads, 1.25 mm at 400 1/min: 500 mm/min.
+#[test]
+fn threads_are_tapped_by_the_cycle_of_the_control() {
+    for (control, right, left) in [
+        (
+            Fanuc,
+            vec!["M29 S400\nG94 G98 G84 X10. Y0. Z-20. R3. F500."],
+            vec!["M29 S400\nG94 G98 G74 X10. Y0. Z-20. R3. F500."],
+        ),
+        (Haas, vec!["\nG94 G98 G84 X10. Y0. Z-20. R3. F500."], vec!["G98 G74 X10."]),
+        (
+            LinuxCnc,
+            vec!["M3\n", "G0 Z3\nG33.1 Z-20 K1.25\nG0 Z12"],
+            vec!["M4\n", "G33.1 Z-20 K1.25"],
+        ),
+        (
+            Sinumerik840d,
+            vec!["CYCLE84(12,0,3,-20,,,3,,1.25,0,400,400)"],
+            vec!["CYCLE84(12,0,3,-20,,,4,,-1.25,0,400,400)"],
+        ),
+        (
+            Heidenhain,
+            vec!["CYCL DEF 207 RIGID TAPPING NEW ~", "Q201=-20 ;", "Q239=+1.25 ;", "M99"],
+            vec!["CYCL DEF 207 RIGID TAPPING NEW ~", "Q239=-1.25 ;"],
+        ),
+    ] {
+        for (spindle, words, turning) in [
+            ("RPM,400,CLW", right, SpindleDirection::Clockwise),
+            ("RPM,400,CCLW", left, SpindleDirection::CounterClockwise),
+        ] {
+            let (posted, program) = proved(&with_tap(spindle, M8), &options(control));
+            assert_eq!([posted.holes(), posted.threads()], [3, 3], "{control:?}\n{program}");
+            for word in words {
+                assert!(program.contains(word), "{control:?} {word}\n{program}");
+            }
+            // The cut after them has the spindle of the file.
+            let last = states(&posted, control)[&60];
+            assert_eq!((last.turning, last.speed), (turning, 400.0), "{control:?}\n{program}");
+        }
+        let (posted, _) = proved(&with_tap("RPM,400,CLW", M8), &options(control));
+        for (from, to) in [
+            ("G84", "G74"),
+            ("G84", "G81"),
+            ("F500.", "F510."),
+            ("M29 S400", "M29 S410"),
+            ("CYCLE84(12,0,3,-20,,,3,,1.25", "CYCLE84(12,0,3,-20,,,3,,-1.25"),
+            ("1.25,0,400,400", "1.25,0,410,410"),
+            ("Q239=+1.25", "Q239=-1.25"),
+            ("Q239=+1.25", "Q239=+1.27"),
+            ("K1.25", "K1.27"),
+            ("S400 M3", "S400 M4"),
+            ("CYCL DEF 207", "CYCL DEF 200"),
+        ] {
+            let text = String::from_utf8_lossy(&posted.text).into_owned();
+            let counts = !matches!((control, from), (Fanuc | Haas | Sinumerik840d, "S400 M3"));
+            if text.contains(from) && counts {
+                let mut changed = posted.clone();
+                changed.text = text.replace(from, to).into_bytes();
+                let proof = verify(&machine("three-axis-mill"), &changed, &options(control));
+                assert!(!proof.is_within(&options(control)), "{control:?} {from} {to}");
+            }
+        }
+    }
+}
+
+/// A pitch, or a feed and a speed, or FEDRAT per revolution, are the same thread; inches too.
+#[test]
+fn law_statements_of_a_pitch_give_the_same_thread() {
+    for control in CONTROLS {
+        let (_, wanted) = proved(&with_tap("RPM,400,CLW", M8), &options(control));
+        for cycle in [
+            "CYCLE/TAP,FEDTO,20,MMPM,500,RAPTO,3,RTRCTO,12",
+            "CYCLE/RIGID,DEPTH,20,PITCH,1.25,CLEAR,3,RETURN,12",
+            "CYCLE/TAP,FEDTO,20,MMPM,501,MMPR,1.25,RAPTO,3,RTRCTO,12",
+            "FEDRAT/1.25,MMPR\nCYCLE/TAP,FEDTO,20,RAPTO,3,RTRCTO,12",
+        ] {
+            assert_eq!(
+                proved(&with_tap("RPM,400,CLW", cycle), &options(control)).1,
+                wanted,
+                "{cycle}"
+            );
+        }
+        let inches = "CYCLE/TAP,FEDTO,20,TPI,20,RAPTO,3,RTRCTO,12";
+        let (_, program) = proved(&with_tap("RPM,400,CLW", inches), &options(control));
+        let word = match control {
+            Fanuc | Haas => "F508.",
+            LinuxCnc => "K1.27\n",
+            Sinumerik840d => ",,1.27,",
+            Heidenhain => "Q239=+1.27 ",
+        };
+        assert!(program.contains(word), "{program}");
+    }
+}
+
+#[test]
+fn threads_that_the_file_does_not_say_are_refused() {
+    let codes = |text: &str, options: &PostOptions| -> Vec<(usize, &'static str)> {
+        let (posted, problems) = post(&machine("three-axis-mill"), &cl(text), options);
+        assert_eq!(posted.is_none(), problems.has_errors(), "{text}");
+        problems.iter().map(|p| (p.place.line, p.code)).collect()
+    };
+    let on = "RPM,400,CLW";
+    let none = "CYCLE/TAP,FEDTO,20,RAPTO,3";
+    for (spindle, cycle, found) in [
+        (on, none, vec![(7, "no-pitch")]),
+        (on, "CYCLE/TAP,FEDTO,20,MMPM,50000,RAPTO,3", vec![(7, "no-pitch")]),
+        (on, "CYCLE/TAP,FEDTO,20,MMPM,600,MMPR,1.25,RAPTO,3", vec![(7, "contradicting-pitch")]),
+        ("OFF", M8, vec![(7, "tap-without-spindle")]),
+        ("CLW", M8, vec![(7, "tap-without-spindle")]),
+        (on, "FEDRAT/500,MMPM\nCYCLE/TAP,FEDTO,20,RAPTO,3", vec![(8, "pitch-of-feed")]),
+    ] {
+        for control in CONTROLS {
+            assert_eq!(codes(&with_tap(spindle, cycle), &options(control)), found, "{cycle}");
+        }
+    }
+    // Lines cannot follow the spindle.
+    for control in CONTROLS {
+        let lines = PostOptions { lines_only: true, ..options(control) };
+        assert_eq!(codes(&with_tap(on, M8), &lines), [(7, "thread-needs-cycle")], "{control:?}");
+    }
+    let off = PostOptions { tip_words: None, ..options(LinuxCnc) };
+    assert_eq!(codes(&with_tap(on, M8), &off), [(7, "thread-needs-cycle")]);
+}

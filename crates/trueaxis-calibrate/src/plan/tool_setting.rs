@@ -99,6 +99,7 @@ pub fn tool_setting(
     };
     let axes = linear_axes(&machine, file, problems)?;
     let tools = tools(&setup, &setter, file, numbers, problems)?;
+    within_limits((&machine, axes), &setter, file, problems)?;
     let mut setting = ToolSetting {
         machine,
         machine_path: machine_path.to_owned(),
@@ -111,6 +112,43 @@ pub fn tool_setting(
     };
     setting.touches = touches(&setting);
     within_travel(&setting, problems).then_some(setting)
+}
+
+/// Whether the machine can touch as fast, and turn as fast, as the setter asks for.
+fn within_limits(
+    (machine, [x, _, z]): (&Machine, [usize; 3]),
+    setter: &ToolSetter,
+    file: &str,
+    problems: &mut Diagnostics,
+) -> Option<()> {
+    let mut refuse = |message: String| {
+        let hint =
+            "lower feed or speed of [tool_setter], or correct the limits of the machine file";
+        problems.error("setter-beyond-machine", Place::whole(file), message, hint);
+    };
+    let mut possible = Some(());
+    for axis in [x, z].map(|i| &machine.axes()[i]) {
+        let most = axis.limits.velocity.map(|mm_per_s| 60.0 * mm_per_s);
+        if let Some(most) = most.filter(|most| setter.feed_mm_per_min > most * (1.0 + 1e-9)) {
+            let feed = setter.feed_mm_per_min;
+            refuse(format!(
+                "feed {feed} mm/min of the tool setter: {} moves with at most {most:.4} mm/min",
+                axis.name
+            ));
+            possible = None;
+        }
+    }
+    let speed = setter.speed_per_minute;
+    let passed =
+        speed.and_then(|speed| Some((speed, machine.equipment().speed_limit_passed(speed)?)));
+    if let Some((speed, limit)) = passed {
+        let side = if speed > limit { "at most" } else { "at least" };
+        refuse(format!(
+            "speed {speed:.4} 1/min of the tool setter: the spindle turns with {side} {limit:.4} 1/min"
+        ));
+        possible = None;
+    }
+    possible
 }
 
 /// X, Y, Z of a machine whose Z moves the tool along itself with the rotary axes at 0.

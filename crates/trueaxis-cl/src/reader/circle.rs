@@ -14,7 +14,7 @@ const OFF_CIRCLE_PART: f64 = 1e-3;
 impl Reader<'_> {
     /// CIRCLE/x,y,z,i,j,k,radius; NX adds tolerances and the cutter.
     pub(super) fn circle(&mut self, s: &Statement) -> Result<ClCircle, Fault> {
-        let center_mm = self.place_mm(s)?;
+        let center_mm = self.displaced(self.place_mm(s)?);
         let normal = match s.count() {
             6 | 7 | 11 => self.numbers::<3>(s, 3)?,
             count => {

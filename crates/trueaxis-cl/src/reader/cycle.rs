@@ -1,16 +1,24 @@
-//! CYCLE: the words of drilling in the forms of several systems.
+//! CYCLE: the words of drilling and tapping in the forms of several systems.
 
 use super::super::numbers::{Fault, number};
 use super::super::scan::Statement;
-use super::super::{ClCycle, Word};
-use super::Reader;
+use super::super::{ClCycle, ClTap, Word};
 use super::technology::{feed, feed_unit};
-use trueaxis_nc::moves::Feed;
+use super::{INCH_MM, Reader};
+use trueaxis_nc::moves::{Feed, FeedMode};
 
 /// Pecks of one hole: more than any file means.
 const MOST_PECKS: f64 = 1e5;
 
 const HINT: &str = "write CYCLE/DRILL,FEDTO,10,MMPM,200,RAPTO,2";
+
+const TAP_HINT: &str = "write CYCLE/TAP,FEDTO,10,MMPR,1.25,RAPTO,3";
+
+/// Largest pitch of a tap, mm: one inch.
+const MOST_PITCH_MM: f64 = INCH_MM;
+
+/// Two statements of one pitch differ by no more than this share: feeds are often rounded to whole numbers.
+pub const SAME_PITCH: f64 = 5e-3;
 
 /// The words of one CYCLE; lengths in mm.
 #[derive(Debug, Default)]
@@ -20,6 +28,12 @@ struct Words {
     retract: Option<f64>,
     to_begin: bool,
     feed: Option<Feed>,
+    /// The pitch by its own word, or by a feed per revolution, mm.
+    pitches: Vec<f64>,
+    /// The last feed per minute.
+    per_minute: Option<Feed>,
+    /// Words that only a thread has.
+    of_thread: Vec<String>,
     dwell_s: f64,
     first: Option<f64>,
     step: Option<f64>,
@@ -40,7 +54,7 @@ impl Reader<'_> {
             "OFF" | "NOMORE" => return Ok(Word::CycleOff),
             "INIT" => return Ok(Word::Noted),
             "ON" => return self.cycle_again(),
-            "TAP" | "RTAP" | "THREAD" | "MILL" => {
+            "THREAD" | "MILL" => {
                 let message = format!("CYCLE/{kind} is not read: a motion other than drilling");
                 return Err((
                     "motion-not-read",
@@ -54,11 +68,11 @@ impl Reader<'_> {
             _ => {}
         }
         let words = self.cycle_words(s)?;
-        for word in &words.others {
-            let message = format!("{word} of CYCLE/{kind} is read, but not applied");
-            let hint = "check the hole";
-            self.warn("cycle-not-applied", &format!("{kind} {word}"), s.line, message, hint);
+        if matches!(kind.as_str(), "TAP" | "RTAP" | "RIGID") {
+            return self.tapping(&kind, &words, s.line);
         }
+        self.warn_of_others(&kind, &words.others, s.line);
+        self.warn_of_others(&kind, &words.of_thread, s.line);
         let is_deep = words.is_deep || kind.starts_with("DEEP");
         let cycle = words.cycle(is_deep, kind == "REAM")?;
         let is_drilling = matches!(kind.as_str(), "DRILL" | "FACE" | "REAM" | "CSINK");
@@ -67,6 +81,32 @@ impl Reader<'_> {
             let hint = "pecks and the retraction of the cycle are omitted; check the hole";
             self.warn("cycle-not-applied", &kind, s.line, message, hint);
         }
+        self.cycle = Some(cycle);
+        Ok(Word::Cycle(cycle))
+    }
+
+    fn warn_of_others(&mut self, kind: &str, others: &[String], line: u32) {
+        for word in others {
+            let message = format!("{word} of CYCLE/{kind} is read, but not applied");
+            let hint = "check the hole";
+            self.warn("cycle-not-applied", &format!("{kind} {word}"), line, message, hint);
+        }
+    }
+
+    /// CYCLE/TAP, RTAP or RIGID: the pitch after PITCH or TPI, or as a feed per revolution.
+    fn tapping(&mut self, kind: &str, words: &Words, line: u32) -> Result<Word, Fault> {
+        if words.is_deep || words.first.is_some() || words.step.is_some() {
+            let message = format!("CYCLE/{kind} with pecks is not read: a tap cuts in one stroke");
+            return Err(("bad-cycle", message, TAP_HINT));
+        }
+        let pitch_mm = words.pitch()?;
+        self.warn_of_others(kind, &words.others, line);
+        if words.dwell_s > 0.0 {
+            self.warn_of_others(kind, &["DWELL".to_owned()], line);
+        }
+        let drilled = words.cycle(false, true)?;
+        let (feed, tap) = (words.per_minute.or(words.feed), Some(ClTap { pitch_mm }));
+        let cycle = ClCycle { dwell_s: 0.0, feed, tap, ..drilled };
         self.cycle = Some(cycle);
         Ok(Word::Cycle(cycle))
     }
@@ -115,7 +155,13 @@ impl Reader<'_> {
                 Some(value) => (value, 0),
                 None => (number(first)?, 1),
             };
-            words.feed = Some(feed(value, unit)?);
+            let feed = feed(value, unit)?;
+            match feed.mode {
+                FeedMode::PerRevolution => words.pitches.push(feed.value),
+                // Beside a pitch it is to be that of the spindle.
+                _ => words.per_minute = Some(feed),
+            }
+            words.feed = Some(feed);
             return Ok(taken);
         }
         match word {
@@ -129,6 +175,12 @@ impl Reader<'_> {
             "AUTO" => {
                 words.to_begin = true;
                 return Ok(0);
+            }
+            "PITCH" | "TPI" => {
+                let value = number(first)?;
+                let mm = if word == "TPI" { INCH_MM / value } else { value * self.unit_mm };
+                words.pitches.push(mm);
+                words.of_thread.push(word.to_owned());
             }
             "DEEP" => {
                 words.is_deep = true;
@@ -158,6 +210,23 @@ impl Reader<'_> {
 }
 
 impl Words {
+    /// The pitch of a thread, if it is stated; all statements of it are the same.
+    fn pitch(&self) -> Result<Option<f64>, Fault> {
+        let Some(pitch) = self.pitches.first().copied() else { return Ok(None) };
+        if !self.pitches.iter().all(|p| *p > 0.0 && *p <= MOST_PITCH_MM) {
+            let message = "the pitch of the thread is not above 0 and up to 25.4 mm".to_owned();
+            return Err(("bad-cycle", message, TAP_HINT));
+        }
+        match self.pitches.iter().find(|p| (*p - pitch).abs() > SAME_PITCH * pitch) {
+            None => Ok(Some(pitch)),
+            Some(other) => {
+                let message =
+                    format!("the cycle states a pitch of {pitch} mm and one of {other} mm");
+                Err(("contradicting-pitch", message, TAP_HINT))
+            }
+        }
+    }
+
     fn cycle(&self, is_deep: bool, feeds_out: bool) -> Result<ClCycle, Fault> {
         // NX counts the depth along the tool axis, below zero.
         let Some(depth_mm) = self.depth.map(f64::abs) else {
@@ -185,6 +254,7 @@ impl Words {
             dwell_s: self.dwell_s,
             feeds_out,
             feed: self.feed,
+            tap: None,
         })
     }
 }

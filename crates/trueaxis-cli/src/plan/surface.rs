@@ -14,7 +14,8 @@ Example:
 
 Writes the NC program of the touches along the normals, and surface.csv: point, x_mm .. z_mm, i, j, k,
 deviation_um (empty, for the readings: um along the normal, positive outwards).
-Exit status: 0 done, 1 the program would cause a collision or leave the travel, 2 unusable input.")]
+Exit status: 0 done, 1 the program would cause a collision or leave the travel (then nothing is written without
+--write-unsafe), 2 unusable input.")]
 pub struct Arguments {
     /// The study: machine, surface, spacing, probe
     #[arg(value_name = "FILE.toml")]
@@ -25,6 +26,9 @@ pub struct Arguments {
     /// Write the program and the table of the points into this folder
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
+    /// With -o: write programs that are NOT SAFE, too, to look at them
+    #[arg(long)]
+    write_unsafe: bool,
     #[command(flatten)]
     door: DoorArguments,
 }
@@ -34,6 +38,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         study: arguments.file.clone(),
         control: arguments.control.clone(),
         output: arguments.output.clone(),
+        write_unsafe: arguments.write_unsafe,
     };
     arguments.door.door().ask(&question)
 }

@@ -15,7 +15,8 @@ Example:
 Writes the program that measures length, and diameter where the set-up asks for it, of its tools at its
 [tool_setter]: it writes the wear, raises an alarm for a broken tool and stops for a worn one. The log that it
 writes is read by `identify tools`.
-Exit status: 0 done, 1 the program would cause a collision or leave the travel, 2 unusable input.")]
+Exit status: 0 done, 1 the program would cause a collision or leave the travel (then nothing is written without
+--write-unsafe), 2 unusable input.")]
 pub struct Arguments {
     /// The machine file
     #[arg(value_name = "MACHINE.toml")]
@@ -32,6 +33,9 @@ pub struct Arguments {
     /// Write the program into this folder
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
+    /// With -o: write programs that are NOT SAFE, too, to look at them
+    #[arg(long)]
+    write_unsafe: bool,
     #[command(flatten)]
     door: DoorArguments,
 }
@@ -45,6 +49,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         },
         control: arguments.control.clone(),
         output: arguments.output.clone(),
+        write_unsafe: arguments.write_unsafe,
     };
     arguments.door.door().ask(&question)
 }

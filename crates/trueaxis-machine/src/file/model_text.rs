@@ -294,6 +294,20 @@ pub fn read_tool_shape(section: &Section<'_>) -> Option<Vec<ToolSegment>> {
     segments.into_iter().collect()
 }
 
+/// Warns where the diameter of a tool is not that of the first cylinder of its shape, the cutter.
+pub fn compare_with_shape(section: &Section<'_>, diameter_mm: Option<f64>, shape: &[ToolSegment]) {
+    const SAME_MM: f64 = 1e-6;
+    let (Some(diameter), Some(first)) = (diameter_mm, shape.first()) else { return };
+    if (diameter - first.diameter_mm).abs() > SAME_MM {
+        let message = format!(
+            "the tool has a diameter of {diameter} mm, and its shape begins with one of {} mm",
+            first.diameter_mm
+        );
+        let hint = "`diameter` cuts and is compensated, `shape` is what collides: the first cylinder is the cutter";
+        section.warn("diameter-not-of-shape", message, hint);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

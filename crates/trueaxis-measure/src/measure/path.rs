@@ -94,7 +94,12 @@ pub fn read_path(section: &Section<'_>, campaign: &Campaign) -> Option<Vec<Path>
         section.error("bad-feed", message, "feed = \"600 mm/min\"; without it the machine stands");
         return None;
     }
-    let dwell_s = section.quantity("dwell", Dimension::Time).unwrap_or(1.0).max(0.0);
+    let dwell = section.get("dwell");
+    let dwell_s = dwell.and_then(|item| item.quantity(Dimension::Time)).unwrap_or(1.0);
+    if let Some(item) = dwell.filter(|_| dwell_s < 0.0) {
+        let message = format!("a dwell time is not negative, as {dwell_s} s");
+        item.error("bad-dwell", message, "such as dwell = \"2 s\"");
+    }
     let Some(overrun) = overrun::read_overrun(section, kind.text()?, campaign) else {
         // The other keys are of no use now.
         section.entries();

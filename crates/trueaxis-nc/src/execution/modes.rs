@@ -209,6 +209,17 @@ impl Core<'_> {
         self.warn("unknown-work-offset", number, at, message, hint);
     }
 
+    /// Warns that the length of another tool is compensated than of that in the spindle.
+    pub fn other_length(&mut self, [offset, length]: [Position; 2], number: u32, at: usize) {
+        let tool = self.modes.tool;
+        let [offset, length] = [offset, length].map(|length| length[Axis::Z]);
+        let message = format!(
+            "H{number} compensates {offset:.4} mm, and tool {tool} in the spindle is {length:.4} mm long"
+        );
+        let hint = "write the offset of the tool, or check its length in the set-up file";
+        self.warn("offset-of-other-tool", format!("{tool} {number}"), at, message, hint);
+    }
+
     /// Warns of an M function that is not known.
     pub fn unknown_m_code(&mut self, number: f64, at: usize) {
         let message = format!("unknown M function M{number} for this control");

@@ -264,6 +264,12 @@ impl Run<'_> {
     fn strokes(&self, cycle: Cycle, hole: &Hole) -> Vec<Stroke> {
         const CLEARANCE_MM: f64 = 0.254;
         let turning = self.core.modes.turning;
+        // FANUC and Haas turn the spindle into the thread themselves.
+        let into = match cycle {
+            Cycle::TapRight if self.is_fanuc() => SpindleDirection::Clockwise,
+            Cycle::TapLeft if self.is_fanuc() => SpindleDirection::CounterClockwise,
+            _ => turning,
+        };
         let turn = |turning| Stroke::Event(Event::Spindle(turning));
         let (wait, out) = (Stroke::Dwell(hole.dwell_s), Stroke::Rapid(hole.clear));
         let mut strokes = match cycle {
@@ -272,11 +278,12 @@ impl Run<'_> {
                 strokes.extend((cycle == Cycle::Peck).then_some(Stroke::Rapid(hole.r)));
                 strokes.push(Stroke::Rapid(depth + CLEARANCE_MM));
             }),
+            _ if into != turning => vec![turn(into), Stroke::Linear(hole.bottom)],
             _ => vec![Stroke::Linear(hole.bottom)],
         };
         match cycle {
             Cycle::TapLeft | Cycle::TapRight => {
-                strokes.extend([turn(SpindleDirection::Stopped), turn(reversed(turning)), wait]);
+                strokes.extend([turn(SpindleDirection::Stopped), turn(reversed(into)), wait]);
                 // FANUC feeds out to R and goes on with rapid, LinuxCNC feeds all the way.
                 let out_of = if self.is_fanuc() { hole.r } else { hole.clear };
                 strokes.extend([Stroke::Linear(out_of), turn(SpindleDirection::Stopped)]);

@@ -167,6 +167,7 @@ impl Run<'_> {
                 if number != 0 && !self.frames.tools.contains_key(&number) {
                     self.core.unknown_length(number, at);
                 }
+                self.compare_length(number, at);
                 length = self.frames.tool_length(number);
                 if action == Action::ToolLengthNegative {
                     length = Position::default().minus(&length);
@@ -196,6 +197,21 @@ impl Run<'_> {
             self.core.tool_centre(on);
         }
         Ok(())
+    }
+
+    /// The offset of another number has the length of the tool in the spindle, or that is said.
+    fn compare_length(&mut self, number: u32, at: usize) {
+        const SAME_MM: f64 = 1e-6;
+        let tool = self.core.modes.tool;
+        let known = |n: u32| n != 0 && self.frames.tools.contains_key(&n);
+        if number == tool || !known(number) || !known(tool) {
+            return;
+        }
+        let lengths = [number, tool].map(|n| self.frames.tool_length(n));
+        let longer = lengths[0].minus(&lengths[1]);
+        if longer.0.iter().any(|mm| mm.abs() > SAME_MM) {
+            self.core.other_length(lengths, number, at);
+        }
     }
 
     /// Another tool length; the machine stays where it is. On FANUC the change is added to the next word of its axis,

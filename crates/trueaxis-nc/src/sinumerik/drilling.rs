@@ -230,10 +230,11 @@ impl Run<'_> {
         speed: Option<f64>,
     ) -> Result<(), Fault> {
         let at = parameters.at;
-        let size = parameters.or_zero(size)?.abs();
+        let size = parameters.or_zero(size)?;
         let pitch = parameters.number(pitch)?.filter(|p| *p != 0.0);
-        let pitch =
-            pitch.map(|p| p.abs() * self.core.modes.unit_mm()).or_else(|| coarse_pitch_mm(size));
+        // Below zero it is a left-hand thread.
+        let coarse = || coarse_pitch_mm(size.abs()).map(|p| p.copysign(size));
+        let pitch = pitch.map(|p| p * self.core.modes.unit_mm()).or_else(coarse);
         let modes = &self.core.modes;
         let by_feed = match modes.feed.mode {
             _ if angle != usize::MAX => None,

@@ -45,6 +45,7 @@ def plan(
     *,
     control: Optional[str] = None,
     output: Optional[Path] = None,
+    write_unsafe: bool = False,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
     language: str = "en",
@@ -53,6 +54,7 @@ def plan(
     """Which errors a measurement determines, with what uncertainty, and its programs: ``trueaxis plan``.
 
     control: the control of the NC programs (sinumerik). output: write programs, poses and campaign into this folder.
+    write_unsafe: programs that are NOT SAFE, too.
 
     >>> trueaxis.plan("examples/04_plan/probe-ball.toml").schema
     'trueaxis/plan/1'
@@ -65,6 +67,7 @@ def plan_probe_surface(
     *,
     control: Optional[str] = None,
     output: Optional[Path] = None,
+    write_unsafe: bool = False,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
     language: str = "en",
@@ -73,6 +76,7 @@ def plan_probe_surface(
     """A probing path over a surface without a collision: ``trueaxis plan probe-surface``.
 
     control: the control of the NC program (sinumerik). output: write program and points into this folder.
+    write_unsafe: also where the program is NOT SAFE.
     """
     return ask("plan_probe_surface", locals())
 
@@ -84,6 +88,7 @@ def plan_tool_setting(
     tools: Optional[str] = None,
     control: Optional[str] = None,
     output: Optional[Path] = None,
+    write_unsafe: bool = False,
     report: Optional[Path] = None,
     heading: Optional[Path] = None,
     language: str = "en",
@@ -92,6 +97,7 @@ def plan_tool_setting(
     """The program that measures the tools of a set-up: ``trueaxis plan tool-setting``.
 
     tools: only these, such as ``"1,2"``. control: the control of the NC program (sinumerik). output: its folder.
+    write_unsafe: also where it is NOT SAFE.
     """
     return ask("plan_tool_setting", locals())
 

@@ -3361,6 +3361,8 @@ class PostDocument(Record):
     arcs: int
     #: Holes that the control drills by its own cycle.
     holes: int
+    #: How many of them are tapped threads.
+    threads: int
     #: How often the tool retracts so that an axis can rewind.
     rewinds: int
     #: How far the tool axis was turned to pass through a pole, degrees.
@@ -3369,6 +3371,8 @@ class PostDocument(Record):
     tolerance_mm: float
     #: The tolerance of the tool axis, degrees.
     axis_tolerance_deg: float
+    #: Words of the file that can change motion, spindle or coolant and are not applied; the exit status is then 1.
+    not_applied: int
     #: The program read back and simulated; null if that was not asked for.
     verify: Optional[PostDocument.VerificationEntry]
     #: The problems found in the input; the command line prints them on standard error, too. May be absent.
@@ -3388,6 +3392,8 @@ class PostDocument(Record):
         tip_on_path_um: PostDocument.LargestEntry
         #: Largest angle of the tool axis from the path, degrees.
         axis_on_path_deg: PostDocument.LargestEntry
+        #: Largest error of the lead of tapped threads over their depth, µm; 0 without threads, null where one is not tapped.
+        lead_um: PostDocument.LargestEntry
         #: Whether an axis leaves its travel.
         axes_beyond_travel: bool
 

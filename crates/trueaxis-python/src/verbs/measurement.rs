@@ -28,16 +28,19 @@ pub fn ask(verb: &str, o: &Options<'_, '_>, door: &Door<'_>) -> PyResult<Option<
             campaign: o.file("campaign")?,
             control: o.text_or("control", CONTROL)?,
             output: o.path("output")?,
+            write_unsafe: o.is("write_unsafe")?,
         })?,
         "plan_probe_surface" => door.ask(&PlanSurface {
             study: o.file("file")?,
             control: o.text_or("control", CONTROL)?,
             output: o.path("output")?,
+            write_unsafe: o.is("write_unsafe")?,
         })?,
         "plan_tool_setting" => door.ask(&PlanToolSetting {
             choice: tools(o)?,
             control: o.text_or("control", CONTROL)?,
             output: o.path("output")?,
+            write_unsafe: o.is("write_unsafe")?,
         })?,
         "identify" => door.ask(&Identify {
             campaign: o.file("campaign")?,

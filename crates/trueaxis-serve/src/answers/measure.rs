@@ -114,7 +114,8 @@ impl Stations {
             }
             None => {
                 let control = super::plan::SINUMERIK.to_owned();
-                let question = PlanMeasurement { campaign: path, control, output: None };
+                let question =
+                    PlanMeasurement { campaign: path, control, output: None, write_unsafe: false };
                 let (plan, found) = ask(&question, job)?;
                 problems = found;
                 let planned = plan.found.paths.into_iter();

@@ -86,6 +86,7 @@ impl Request for PlanRequest {
             campaign: desk.project.path(&self.campaign)?,
             control: self.dialect.unwrap_or_else(|| SINUMERIK.to_owned()),
             output: None,
+            write_unsafe: false,
         };
         let (plan, problems) = ask(&question, job)?;
         Ok(reply(desk, &plan.found, &problems))

@@ -195,7 +195,11 @@ impl ReportRequest {
             }
             Verb::Plan => {
                 let control = self.dialect.unwrap_or_else(|| SINUMERIK.to_owned());
-                made(&PlanMeasurement { campaign: file, control, output: None }, job, frame)
+                made(
+                    &PlanMeasurement { campaign: file, control, output: None, write_unsafe: false },
+                    job,
+                    frame,
+                )
             }
             Verb::Identify => made(&Identify { campaign: file, ..Identify::default() }, job, frame),
             Verb::Evaluate => {

@@ -6,7 +6,7 @@ use crate::report;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use trueaxis_calibrate::plan::{
-    Plan, PlanReport, READINGS_FOLDER, READY_CAMPAIGN, chosen, planned, read_plan,
+    Plan, PlanReport, PlannedPath, READINGS_FOLDER, READY_CAMPAIGN, chosen, planned, read_plan,
 };
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_nc::Control;
@@ -21,6 +21,8 @@ pub struct PlanMeasurement {
     pub control: String,
     /// The folder for one program and one table of poses per path, and the campaign with the chosen poses.
     pub output: Option<PathBuf>,
+    /// Whether programs that are not safe are written, too.
+    pub write_unsafe: bool,
 }
 
 /// A plan worked out.
@@ -31,6 +33,7 @@ pub struct PlanAnswer {
     /// The campaign that `measure` and `identify` read.
     ready: Option<String>,
     output: Option<PathBuf>,
+    write_unsafe: bool,
 }
 
 impl Question for PlanMeasurement {
@@ -70,7 +73,16 @@ impl Question for PlanMeasurement {
                 }
             },
         };
-        Some(PlanAnswer { found, ready, output: self.output.clone() })
+        let (output, write_unsafe) = (self.output.clone(), self.write_unsafe);
+        Some(PlanAnswer { found, ready, output, write_unsafe })
+    }
+}
+
+impl PlanAnswer {
+    /// Whether a file of a path is kept back: all but the table of the poses, where the program is not safe.
+    fn is_kept_back(&self, path: &PlannedPath, name: &str) -> bool {
+        let is_unsafe = path.check.as_ref().is_ok_and(|check| !check.is_sound());
+        is_unsafe && !self.write_unsafe && !name.ends_with(".csv")
     }
 }
 
@@ -89,10 +101,12 @@ impl Answer for PlanAnswer {
 
     fn files(&mut self) -> Vec<NewFile> {
         let mut files: Vec<(String, Vec<u8>)> = Vec::new();
-        for file in self.found.paths.iter().flat_map(|path| &path.files) {
-            // Masks of the log are the same for all paths.
-            if files.iter().all(|f| f.0 != file.0) {
-                files.push(file.clone());
+        for path in &self.found.paths {
+            for file in path.files.iter().filter(|file| !self.is_kept_back(path, &file.0)) {
+                // Masks of the log are the same for all paths.
+                if files.iter().all(|f| f.0 != file.0) {
+                    files.push(file.clone());
+                }
             }
         }
         files.extend(self.ready.take().map(|text| (READY_CAMPAIGN.to_owned(), text.into_bytes())));
@@ -103,9 +117,15 @@ impl Answer for PlanAnswer {
         let Some(folder) = &self.output else { return Vec::new() };
         let [campaign, readings] = [READY_CAMPAIGN, READINGS_FOLDER].map(|name| folder.join(name));
         let campaign = campaign.display();
-        vec![
+        let unsafe_ones = self.found.paths.iter().filter(|path| self.is_kept_back(path, ""));
+        let kept_back = unsafe_ones.map(|path| {
+            let name = &path.path.name;
+            format!("the program of path {name} is NOT SAFE: it was not written (--write-unsafe writes it)")
+        });
+        let next = [
             format!("virtual readings: trueaxis measure {campaign} -o {}", readings.display()),
             format!("then: trueaxis identify {campaign}"),
-        ]
+        ];
+        kept_back.chain(next).collect()
     }
 }

@@ -11,7 +11,7 @@ use serde_json::Value;
 use std::path::PathBuf;
 use trueaxis_calibrate::plan::extension;
 use trueaxis_cl::{ClFile, ClPath, Reading};
-use trueaxis_input::{Content, Diagnostics, Files, Place};
+use trueaxis_input::{Content, Diagnostic, Diagnostics, Files, Place, Severity};
 use trueaxis_machine::Machine;
 use trueaxis_part::TestPieceFile;
 use trueaxis_post::{
@@ -69,6 +69,8 @@ pub struct PostAnswer {
     options: PostOptions,
     posted: Posted,
     verification: Option<Verification>,
+    /// Words that are not applied.
+    not_applied: usize,
     output: PathBuf,
     set_up: Vec<NewFile>,
     set_up_is_sound: bool,
@@ -243,12 +245,14 @@ impl Question for Post {
         let verification = self.verify.then(|| verify_in_place(&machine, &mut posted, &options));
         let output = self.output.clone();
         let (set_up, set_up_is_sound) = self.set_up_files(&machine, &options, &set_up, problems)?;
+        let not_applied = problems.iter().filter(|p| is_not_applied(p)).count();
         Some(PostAnswer {
             machine,
             file,
             options,
             posted,
             verification,
+            not_applied,
             output,
             set_up,
             set_up_is_sound,
@@ -256,7 +260,18 @@ impl Question for Post {
     }
 }
 
+/// Words of the file that can change motion, spindle or coolant, and do not.
+fn is_not_applied(problem: &Diagnostic) -> bool {
+    const CODES: [&str; 4] = ["not-applied", "cycle-not-applied", "unknown-word", "surface-speed"];
+    problem.severity == Severity::Warning && CODES.contains(&problem.code)
+}
+
 impl PostAnswer {
+    /// Whether the program is written: nothing is known against its path.
+    fn is_proved(&self) -> bool {
+        self.shown().is_sound() && self.set_up_is_sound
+    }
+
     fn shown(&self) -> PostReport<'_> {
         PostReport {
             machine: &self.machine,
@@ -265,6 +280,7 @@ impl PostAnswer {
             options: &self.options,
             posted: &self.posted,
             verification: self.verification.as_ref(),
+            not_applied: self.not_applied,
             output: &self.output,
         }
     }
@@ -280,11 +296,11 @@ impl Answer for PostAnswer {
     }
 
     fn is_yes(&self) -> bool {
-        self.shown().is_sound() && self.set_up_is_sound
+        self.is_proved() && self.not_applied == 0
     }
 
     fn files(&mut self) -> Vec<NewFile> {
-        if !self.is_yes() {
+        if !self.is_proved() {
             return Vec::new();
         }
         let program = NewFile::of("", &self.output, std::mem::take(&mut self.posted.text));
@@ -293,6 +309,6 @@ impl Answer for PostAnswer {
 
     fn notes(&self) -> Vec<String> {
         let note = "the program is not within the tolerances; nothing was written";
-        (!self.is_yes()).then(|| note.to_owned()).into_iter().collect()
+        (!self.is_proved()).then(|| note.to_owned()).into_iter().collect()
     }
 }

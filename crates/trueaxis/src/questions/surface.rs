@@ -1,9 +1,11 @@
 //! How is a surface probed?
 
+use super::tool_setting::NOT_WRITTEN;
 use super::{Answer, NewFile, Question, Tell, in_folder, named_control, with_diagnostics};
 use crate::report;
 use serde_json::Value;
 use std::path::{Component, Path, PathBuf};
+use trueaxis_calibrate::identify::probe::{Purpose, read_study};
 use trueaxis_calibrate::plan::extension;
 use trueaxis_calibrate::plan::program::ProgramCheck;
 use trueaxis_calibrate::plan::surface::{
@@ -23,6 +25,8 @@ pub struct PlanSurface {
     pub control: String,
     /// The folder for the program and the table of points.
     pub output: Option<PathBuf>,
+    /// Whether a program that is not safe is written, too.
+    pub write_unsafe: bool,
 }
 
 /// A probing path with its program.
@@ -38,6 +42,7 @@ pub struct SurfaceAnswer {
     /// What the virtual machine read, if the study has one.
     log: Option<String>,
     output: Option<PathBuf>,
+    write_unsafe: bool,
 }
 
 /// Points over the surface that face the wanted way.
@@ -63,6 +68,25 @@ fn points(study: &SurfaceStudy, problems: &mut Diagnostics) -> Option<Vec<Surfac
         return None;
     }
     Some(points)
+}
+
+/// Says where the ball is not that of the calibration, if that exists by now: `identify surface` refuses it.
+fn compare_ball(files: &Files, study: &SurfaceStudy, problems: &mut Diagnostics) {
+    const SAME_MM: f64 = 1e-6;
+    let Some((path, stylus)) = &study.calibration else { return };
+    let Some(known) = read_study(files, path, Purpose::Programs).0 else { return };
+    let only = known.styli.first().filter(|_| known.styli.len() == 1 && stylus.is_empty());
+    let Some(stylus) = known.styli.iter().find(|s| s.name == *stylus).or(only) else { return };
+    let [here, there] = [study.ball_radius_mm, stylus.ball_radius_mm].map(|radius| 2.0 * radius);
+    if (here - there).abs() > SAME_MM {
+        let message = format!(
+            "the ball has {here} mm here, {there} mm in the calibration {}, stylus `{}`",
+            path.display(),
+            stylus.name
+        );
+        let hint = "calibrate this stylus, or name the right one";
+        problems.warn("other-ball", Place::whole(&study.file), message, hint);
+    }
 }
 
 /// The log of a virtual machine.
@@ -100,6 +124,9 @@ impl Question for PlanSurface {
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
         let study = problems.keep(read_surface(files, &self.study));
         let control = named_control(&self.control, problems);
+        if let Some(study) = &study {
+            compare_ball(files, study, problems);
+        }
         study.zip(control)
     }
 
@@ -128,7 +155,26 @@ impl Question for PlanSurface {
             None => None,
         };
         let (spread, output) = (points.len(), self.output.clone());
-        Some(SurfaceAnswer { study, poses, spread, control, program, check, log, output })
+        let write_unsafe = self.write_unsafe;
+        let answer = SurfaceAnswer {
+            study,
+            poses,
+            spread,
+            control,
+            program,
+            check,
+            log,
+            output,
+            write_unsafe,
+        };
+        Some(answer)
+    }
+}
+
+impl SurfaceAnswer {
+    /// Whether there are files: the program is safe, or it is asked for all the same.
+    fn is_written(&self) -> bool {
+        self.write_unsafe || self.check.is_sound()
     }
 }
 
@@ -150,7 +196,9 @@ impl Answer for SurfaceAnswer {
         let points: Vec<SurfacePoint> = self.poses.iter().map(|p| p.point).collect();
         let program = format!("surface.{}", extension(self.control));
         let table = ("surface.csv".to_owned(), nominal_table(&points).into_bytes());
-        let Some(folder) = self.output.as_deref() else { return Vec::new() };
+        let Some(folder) = self.output.as_deref().filter(|_| self.is_written()) else {
+            return Vec::new();
+        };
         let machine = seen_from(folder, &self.study.machine_path);
         let calibration = self.study.calibration.as_ref().map(|c| seen_from(folder, &c.0));
         let files = HitsFiles {
@@ -170,6 +218,9 @@ impl Answer for SurfaceAnswer {
 
     fn notes(&self) -> Vec<String> {
         let Some(folder) = self.output.as_deref() else { return Vec::new() };
+        if !self.is_written() {
+            return vec![NOT_WRITTEN.to_owned()];
+        }
         let hits = folder.join("hits.toml").display().to_string();
         let what = match self.study.real {
             Some(_) => "its log is virtual",

@@ -49,6 +49,10 @@ impl ToolChoice {
     }
 }
 
+/// Why there is no file.
+pub(super) const NOT_WRITTEN: &str =
+    "the program is NOT SAFE: nothing was written (--write-unsafe writes it all the same)";
+
 /// The program that measures tools at a tool setter.
 #[derive(Debug, Clone, Default)]
 pub struct PlanToolSetting {
@@ -58,6 +62,8 @@ pub struct PlanToolSetting {
     pub control: String,
     /// The folder of the program.
     pub output: Option<PathBuf>,
+    /// Whether a program that is not safe is written, too.
+    pub write_unsafe: bool,
 }
 
 /// The touches with their program.
@@ -68,6 +74,7 @@ pub struct ToolSettingAnswer {
     program: Vec<u8>,
     check: ProgramCheck,
     output: Option<PathBuf>,
+    write_unsafe: bool,
 }
 
 impl Question for PlanToolSetting {
@@ -90,8 +97,8 @@ impl Question for PlanToolSetting {
         let written = program.and_then(|p| Ok((p, check_setting(&setting, control)?)));
         match written {
             Ok((program, check)) => {
-                let output = self.output.clone();
-                Some(ToolSettingAnswer { setting, control, program, check, output })
+                let (output, write_unsafe) = (self.output.clone(), self.write_unsafe);
+                Some(ToolSettingAnswer { setting, control, program, check, output, write_unsafe })
             }
             Err(error) => {
                 let (place, hint) = (Place::whole("--control"), "choose another --control");
@@ -117,7 +124,14 @@ impl Answer for ToolSettingAnswer {
 
     fn files(&mut self) -> Vec<NewFile> {
         let name = format!("tool-setting.{}", extension(self.control));
-        in_folder(self.output.as_deref(), [(name, self.program.clone())])
+        let written = self.is_yes() || self.write_unsafe;
+        let folder = self.output.as_deref().filter(|_| written);
+        in_folder(folder, [(name, self.program.clone())])
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let kept_back = self.output.is_some() && !self.is_yes() && !self.write_unsafe;
+        kept_back.then(|| NOT_WRITTEN.to_owned()).into_iter().collect()
     }
 }
 

@@ -20,6 +20,8 @@ pub struct PostReport<'a> {
     pub posted: &'a Posted,
     /// The program read back and simulated, if that was asked for.
     pub verification: Option<&'a Verification>,
+    /// Words of the file that can change motion, spindle or coolant and are not applied.
+    pub not_applied: usize,
     /// Its file.
     pub output: &'a Path,
 }
@@ -57,15 +59,27 @@ pub fn post_report(report: &PostReport<'_>) -> Report<'static> {
         let line = format!("to pass a pole the tool axis was turned by up to {degrees:.6} deg");
         answer = answer.line(line);
     }
-    let Some(found) = verification else { return answer };
-    let answer = match report.is_sound() {
-        true => answer.verdict(Standing::Good, "PASS", "the program is within the tolerances"),
-        false => answer.verdict(Standing::Bad, "FAIL", "the program is not within the tolerances"),
+    let words = count(report.not_applied, "word", "words");
+    let Some(found) = verification else {
+        return match report.not_applied {
+            0 => answer,
+            _ => answer.verdict(Standing::Open, "NOT APPLIED", format!("{words}, listed above")),
+        };
     };
-    answer.section(comparison(found, report.options))
+    let answer = match (report.is_sound(), report.not_applied) {
+        (false, _) => {
+            answer.verdict(Standing::Bad, "FAIL", "the program is not within the tolerances")
+        }
+        (true, 0) => answer.verdict(Standing::Good, "PASS", "the program is within the tolerances"),
+        (true, _) => {
+            let sentence = format!("as the CL file; NOT APPLIED: {words}, listed above");
+            answer.verdict(Standing::Open, "PATH", sentence)
+        }
+    };
+    answer.section(comparison(found, report.options, posted.threads()))
 }
 
-fn comparison(found: &Verification, options: &PostOptions) -> Section<'static> {
+fn comparison(found: &Verification, options: &PostOptions, threads: usize) -> Section<'static> {
     let mut table =
         Table::new(["", "largest", "unit", "allowed", "line of program", "line of file"]);
     let mut row = |name: &str, unit: &str, l: &Largest, scale: f64, allowed: String, digits| {
@@ -79,8 +93,11 @@ fn comparison(found: &Verification, options: &PostOptions) -> Section<'static> {
     let axis = format!("{:.5}", options.axis_tolerance_rad.to_degrees());
     row("tip at the ends of blocks", "µm", &found.tip_at_ends, 1e3, String::new(), 4);
     row("tool axis at the ends of blocks", "µrad", &found.axis_at_ends, 1e6, String::new(), 4);
-    row("tip from the path", "µm", &found.tip_between, 1e3, tip, 4);
+    row("tip from the path", "µm", &found.tip_between, 1e3, tip.clone(), 4);
     row("tool axis from the path", "deg", &found.axis_between, degrees, axis, 5);
+    if threads > 0 {
+        row("lead of threads over their depth", "µm", &found.lead, 1e3, tip, 4);
+    }
     let note = format!("{} blocks compared", found.compared);
     Section::new("Read back and simulated on the nominal machine").table(table.note(note))
 }

@@ -31,6 +31,8 @@ pub struct PostDocument<'a> {
     pub arcs: usize,
     /// Holes that the control drills by its own cycle.
     pub holes: usize,
+    /// How many of them are tapped threads.
+    pub threads: usize,
     /// How often the tool retracts so that an axis can rewind.
     pub rewinds: usize,
     /// How far the tool axis was turned to pass through a pole, degrees.
@@ -39,6 +41,8 @@ pub struct PostDocument<'a> {
     pub tolerance_mm: f64,
     /// The tolerance of the tool axis, degrees.
     pub axis_tolerance_deg: f64,
+    /// Words of the file that can change motion, spindle or coolant and are not applied; the exit status is then 1.
+    pub not_applied: usize,
     /// The program read back and simulated; null if that was not asked for.
     pub verify: Option<VerificationEntry>,
 }
@@ -58,6 +62,8 @@ pub struct VerificationEntry {
     pub tip_on_path_um: LargestEntry,
     /// Largest angle of the tool axis from the path, degrees.
     pub axis_on_path_deg: LargestEntry,
+    /// Largest error of the lead of tapped threads over their depth, µm; 0 without threads, null where one is not tapped.
+    pub lead_um: LargestEntry,
     /// Whether an axis leaves its travel.
     pub axes_beyond_travel: bool,
 }
@@ -75,12 +81,12 @@ pub struct LargestEntry {
 
 impl<'a> From<&PostReport<'a>> for PostDocument<'a> {
     fn from(report: &PostReport<'a>) -> Self {
-        let PostReport { machine, file, points, options, posted, verification, output } = report;
+        let PostReport { machine, file, points, options, posted, verification, .. } = report;
         Self {
             schema: "trueaxis/post/1",
             machine: machine.name(),
             file,
-            program: output.display().to_string(),
+            program: report.output.display().to_string(),
             written: report.is_sound(),
             points: *points,
             strokes: posted.strokes,
@@ -88,10 +94,12 @@ impl<'a> From<&PostReport<'a>> for PostDocument<'a> {
             lines: posted.lines,
             arcs: posted.arcs,
             holes: posted.holes(),
+            threads: posted.threads(),
             rewinds: posted.rewinds,
             pole_deviation_deg: posted.pole_deviation_rad.to_degrees(),
             tolerance_mm: options.tolerance_mm,
             axis_tolerance_deg: options.axis_tolerance_rad.to_degrees(),
+            not_applied: report.not_applied,
             verify: verification.map(|v| VerificationEntry::of(v, options)),
         }
     }
@@ -111,6 +119,7 @@ impl VerificationEntry {
             axis_at_blocks_urad: largest(&v.axis_at_ends, 1e6),
             tip_on_path_um: largest(&v.tip_between, 1e3),
             axis_on_path_deg: largest(&v.axis_between, 1_f64.to_degrees()),
+            lead_um: largest(&v.lead, 1e3),
             axes_beyond_travel: v.issues.is_critical(),
         }
     }

@@ -105,7 +105,7 @@ pub(super) fn read_virtual(
         axial_mm: length("axial"),
         lobes_mm: length("lobes"),
         tilt_mm: length("tilt"),
-        noise_mm: length("noise"),
+        noise_mm: noise(section),
         phase_rad: section.quantity("phase", Dimension::Angle).unwrap_or(0.0),
         ..TrueProbe::default()
     };
@@ -116,6 +116,17 @@ pub(super) fn read_virtual(
     let (drawn, seed) = (drawn?, seed? as u64);
     let (surface, drift_mm) = (surface.unwrap_or_else(|| Some(Vec::new()))?, or_zero(drift)?);
     Some(VirtualProbing { machine, drawn, probe, surface, drift_mm, seed })
+}
+
+/// The standard deviation of a hit, mm.
+fn noise(section: &Section<'_>) -> f64 {
+    let Some(item) = section.get("noise") else { return 0.0 };
+    let mm = item.quantity(Dimension::Length).unwrap_or(0.0);
+    if mm < 0.0 {
+        let message = "`noise` is a standard deviation, which is not negative".to_owned();
+        item.error("bad-size", message, "such as noise = \"0.5 um\"");
+    }
+    mm
 }
 
 fn read_true(file: &str, text: &str, problems: &mut Diagnostics) -> Option<Vec<(Vec3, f64)>> {

@@ -489,10 +489,6 @@ fn check_paths(root: &Section<'_>, campaign: &Campaign, paths: &[Path]) {
             let message = format!("path `{}`: a feed is positive", path.name);
             item.error("bad-feed", message, "such as feed = \"150 mm/min\"");
         }
-        if path.dwell_s < 0.0 {
-            let message = format!("path `{}`: a dwell time is not negative", path.name);
-            item.error("bad-dwell", message, "such as dwell = \"2 s\"");
-        }
     }
     for (of, instrument) in campaign.instruments.iter().enumerate() {
         let of = u32::try_from(of).unwrap_or(u32::MAX);
