@@ -51,6 +51,21 @@ fn without_limits_there_is_no_start() {
     refused("[axis.X]", "[axis.Q]", "unknown-axis");
 }
 
+/// An axis without a usable increment is refused: left out without a word, the offset of the next axis went to its place.
+#[test]
+fn an_axis_is_never_left_out_without_a_word() {
+    for new in ["0 um", "-1 um", "-0 um"] {
+        let increment = format!("increment = \"{new}\"");
+        assert_eq!(codes(&[("increment = \"1 um\"", &increment)]), ["not-positive"; 2], "{new}");
+        let first = format!("[axis.X]\nincrement = \"{new}\"");
+        assert_eq!(codes(&[("[axis.X]\nincrement = \"1 um\"", &first)]), ["not-positive"]);
+    }
+    for lag in ["0 um", "-2 um"] {
+        let late = format!("dead_band = \"1 um\"\nlag = \"{lag}\"");
+        assert_eq!(codes(&[("dead_band = \"1 um\"", &late)]), ["not-positive"; 2], "{lag}");
+    }
+}
+
 #[test]
 fn sensors_fit_the_machine_file() {
     let column = ("speed = 10 }", "speed = 10, column = \"scale_x\" }");
