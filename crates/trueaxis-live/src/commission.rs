@@ -7,7 +7,7 @@ use crate::clock::{Clock, RealClock};
 use crate::file::{Commissioned, Plan, read_plan_to_commission};
 use crate::governor::State;
 use crate::run::{Run, Wish};
-use crate::session::{Opened, Stopped, is_gone, open, own_mock, refused, unusable};
+use crate::session::{Opened, Stopped, at_start, is_gone, open, own_mock, refused, unusable};
 use crate::start::{owner, sensors_of};
 use crate::status::folder_of;
 use crate::store::DiskStore;
@@ -75,15 +75,15 @@ pub fn commission(
     let Opened { control, identity, held } = open(&plan, mock.as_ref(), &clock)?;
     let folder = folder_of(&plan, &mut problems).ok_or_else(|| problems.clone())?;
     let opened = DiskStore::open(&folder, &owner(&plan, &identity));
-    let (store, owned) = opened.map_err(|fault| unusable(&folder, &fault, problems.clone()))?;
-    let owned = held.or(owned).filter(|_| mock.is_none());
+    let (store, earlier) = opened.map_err(|fault| unusable(&folder, &fault, problems.clone()))?;
+    let earlier = at_start(held, earlier, mock.is_some());
     let mut target = vec![0.0; plan.settings.axes.len()];
     // As a person would type it at the control: `sign` is what is tried. Of a line both ends: the same all along the axis.
     let due = asked.by / plan.axes[live].increment;
     let own = plan.offsets_of(live);
     target[own.clone()].fill(due);
     let slew_s = (due / plan.axes[live].limits.slew_per_s).abs();
-    let run = Run::new(&plan, owned, control, sensors_of(&plan), store).with_target(target.clone());
+    let run = Run::new(&plan, earlier, control, sensors_of(&plan), store).with_target(target.clone());
     let tried = drive((run, &plan), (&clock, stopped), (own, due.round()), (slew_s, tell, said));
     Ok((plan, tried))
 }

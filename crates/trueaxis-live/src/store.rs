@@ -8,6 +8,7 @@ mod kept;
 mod latest;
 mod lines;
 mod memory;
+mod owned;
 mod part;
 
 pub use datum::{KeptDatums, ask_datum, kept_datums};
