@@ -83,7 +83,8 @@ pub fn commission(
     let own = plan.offsets_of(live);
     target[own.clone()].fill(due);
     let slew_s = (due / plan.axes[live].limits.slew_per_s).abs();
-    let run = Run::new(&plan, earlier, control, sensors_of(&plan), store).with_target(target.clone());
+    let run =
+        Run::new(&plan, earlier, control, sensors_of(&plan), store).with_target(target.clone());
     let tried = drive((run, &plan), (&clock, stopped), (own, due.round()), (slew_s, tell, said));
     Ok((plan, tried))
 }

@@ -148,7 +148,10 @@ impl fmt::Display for Reason {
             Self::Journal => write!(f, "the journal cannot be written"),
             Self::Foreign => write!(f, "the control holds a value of another source"),
             Self::Difference => write!(f, "the control holds another value than the journal"),
-            Self::Lost => write!(f, "the journal does not say what of the offset in the control is this program's"),
+            Self::Lost => write!(
+                f,
+                "the journal does not say what of the offset in the control is this program's"
+            ),
         }
     }
 }

@@ -5,7 +5,7 @@ use super::Sample;
 /// A clock of a source may be ahead by so much, s.
 const AHEAD_S: f64 = 1.0;
 /// A step of one digit of a coarse reading is no rate, K.
-const DIGIT_K: f64 = 0.1;
+pub(crate) const DIGIT_K: f64 = 0.1;
 /// Another sensor must have moved by so much before one that does not move is stuck, K.
 const MOVED_K: f64 = 0.5;
 
