@@ -214,6 +214,11 @@ impl Governor {
         self.axes.iter().map(|a| a.own).collect()
     }
 
+    /// Slew or step hold an axis back from its target.
+    pub fn is_behind(&self) -> bool {
+        self.axes.iter().any(|a| a.is_behind)
+    }
+
     /// What comes next is no jump from the last target.
     pub fn forget_target(&mut self) {
         self.axes.iter_mut().for_each(AxisMemory::forget_target);
@@ -486,7 +491,7 @@ impl Governor {
         self.axes.iter_mut().for_each(|axis| axis.before = axis.whole());
         for (i, axis) in self.axes.iter_mut().enumerate() {
             let to = if target.is_empty() { Some(0) } else { axis.wanted(target[i]) };
-            changed |= to.is_some_and(|to| axis.go(to));
+            changed |= axis.go(to);
         }
         changed.then(|| {
             self.under_way_s = Some(0.0);
