@@ -271,6 +271,12 @@ pub(crate) fn unusable(
             message,
             "name another folder: [journal] folder = …; remove this one only if its offset is not in the control any more",
         ),
+        StoreFault::Foreign(_) => problems.error(
+            "live-no-journal",
+            place,
+            message,
+            "a run would write over it or remove it: name a folder of its own",
+        ),
         StoreFault::Disk(_) => problems.error(
             "live-no-journal",
             place,

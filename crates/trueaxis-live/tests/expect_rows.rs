@@ -166,7 +166,7 @@ fn law_what_no_axis_corrects_does_not_depend_on_where_a_travel_begins() {
     }
 }
 
-/// A sensor that reads the same as the lost one costs nothing: what is left is that of the day.
+/// A sensor that reads the same as the lost one costs nothing: what remains is that of the day.
 #[test]
 fn law_a_sensor_that_stands_in_has_the_age_of_its_sample() {
     let instead = ("[sensor.scale_x]\n", "[sensor.scale_x]\ninstead = \"scale_y\"\n");

@@ -96,7 +96,7 @@ impl Found {
         }
     }
 
-    /// The largest that is left of each axis so far, in its unit.
+    /// The largest that remains of each axis so far, in its unit.
     pub fn after(&self, plan: &Plan) -> Vec<f64> {
         self.axes.iter().enumerate().map(|(live, worst)| worst.after * shown(plan, live)).collect()
     }

@@ -44,7 +44,7 @@ pub(super) struct Day<'a> {
     pub errors: Vec<Errors>,
     /// What stood in the control at those that are shown, with their places.
     pub held: Vec<(usize, Offsets)>,
-    /// The largest that is left of each axis while no sensor is lost, in its unit.
+    /// The largest that remains of each axis while no sensor is lost, in its unit.
     pub after: Vec<f64>,
 }
 

@@ -6,6 +6,7 @@
 use super::datum::{KeptDatums, asked, keep};
 use super::heat::{KEPT, KeptHeat};
 use super::history::history_file;
+use super::kept::kept;
 use super::latest::Latest;
 use super::lines::Lines;
 use super::owned::{OWNED, OwnedFile, checksum, left_elsewhere};
@@ -23,8 +24,22 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+const STATE: &str = "state.json";
 /// Its presence asks a run for its end.
 const STOP: &str = "stop";
+/// What a run writes over or removes.
+const NAMES: [&str; 10] = [
+    STATE,
+    "metrics.prom",
+    STOP,
+    "datum-asked",
+    "history.csv",
+    "history-before.csv",
+    "journal.jsonl",
+    OWNED,
+    "datum.json",
+    KEPT,
+];
 /// Why a store cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreFault {
@@ -34,6 +49,9 @@ pub enum StoreFault {
     /// It is of another machine, control or set of axes.
     #[error("it is of {0}")]
     Other(String),
+    /// No run has made it, and a file in it has a name that runs write over or remove.
+    #[error("it has a file `{0}` that no run has made")]
+    Foreign(&'static str),
     /// The disk.
     #[error("it cannot be opened: {0}")]
     Disk(#[from] io::Error),
@@ -76,6 +94,12 @@ fn own_root() -> Option<PathBuf> {
     Some(state.join("trueaxis/live"))
 }
 
+/// A file with a name of ours in a folder that no run has opened: it is of a person.
+fn foreign_file(folder: &Path) -> Option<&'static str> {
+    let is_ours = folder.join("lock").exists() || !last_events(folder, 1).is_empty();
+    NAMES.into_iter().filter(|_| !is_ours).find(|name| folder.join(name).exists())
+}
+
 /// Whether the last run that has written this journal did not come to its end.
 fn was_running(folder: &Path) -> bool {
     let states = STATES.map(|state| state.to_string());
@@ -99,9 +123,11 @@ pub fn ask_stop(folder: &Path) -> io::Result<()> {
 }
 
 /// The state that the last run has left.
-pub fn last_state(folder: &Path) -> Option<Value> {
-    let text = fs::read_to_string(folder.join("state.json")).ok()?;
-    serde_json::from_str(&text).ok()
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn last_state(folder: &Path) -> Result<Option<Value>, String> {
+    kept(folder, STATE)
 }
 
 /// Bytes at the end of the journal that its last events are looked for in.
@@ -153,6 +179,9 @@ impl DiskStore {
         owner: &Owner,
     ) -> Result<(Self, Earlier), StoreFault> {
         make(folder)?;
+        if let Some(name) = foreign_file(folder) {
+            return Err(StoreFault::Foreign(name));
+        }
         let open = |name: &str| {
             OpenOptions::new()
                 .read(true)
@@ -196,7 +225,7 @@ impl DiskStore {
             owned,
             journal,
             record: None,
-            state: Latest::of(folder.join("state.json")),
+            state: Latest::of(folder.join(STATE)),
             metrics: Latest::of(folder.join("metrics.prom")),
             heat: Latest::of(folder.join(KEPT)),
             history: None,
