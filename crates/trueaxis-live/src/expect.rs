@@ -279,7 +279,7 @@ pub fn expect(
         let sampled = errors.last().unwrap_or(&row.errors);
         let now = follow(plan, (sampled, &places), before.as_ref());
         let since_s = i.checked_sub(1).map(|last| times[i] - times[last]);
-        found.changes(since_s, before.as_ref(), &now);
+        found.changes(since_s, errors.last(), &row.errors);
         let is_shown = i % shown_step(times.len()) == 0;
         found.add(plan, (times[i], is_shown), (&row.errors, sampled, &now), &places);
         if is_new {

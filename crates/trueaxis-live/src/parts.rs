@@ -207,12 +207,24 @@ fn entry(plan: &Plan, record: Record) -> LivePartEntry {
         ended_s: column("date_s").last().copied(),
         not_followed: shown.collect(),
         not_followed_count: lost.len(),
-        // Each run has a clock of its own.
-        interruptions: column("time_s").windows(2).filter(|times| times[1] < times[0]).count(),
+        interruptions: interruptions(column("time_s"), column("date_s")),
         unknown_blocks,
         axes: axes.collect(),
         sensors: sensors.collect(),
     }
+}
+
+/// A date and the clock of a run part by no more within a run, s.
+const DRIFT_S: f64 = 2.0;
+
+/// How often another run went on: each has a clock of its own, which begins at another date.
+fn interruptions(times_s: &[f64], dates_s: &[f64]) -> usize {
+    let pairs = times_s.windows(2).zip(dates_s.windows(2));
+    let is_other = |(times, dates): (&[f64], &[f64])| {
+        let (passed_s, by_date_s) = (times[1] - times[0], dates[1] - dates[0]);
+        passed_s < 0.0 || (by_date_s - passed_s).abs() > DRIFT_S
+    };
+    pairs.filter(|pair| is_other(*pair)).count()
 }
 
 impl Answer for LivePartAnswer {

@@ -29,6 +29,9 @@ impl Drop for Folder {
     }
 }
 
+/// What happens to a file.
+type Damage = fn(&Path);
+
 /// The journal of a run that was killed while it followed.
 fn killed(folder: &Path, owner: &Owner, owned: &Owned) {
     let (mut store, earlier) = DiskStore::open_beside(None, folder, owner).expect("opened");
@@ -64,7 +67,7 @@ fn law_a_journal_that_is_lost_never_doubles_the_correction() {
     let (mut rig, owner, owned) = settled();
     let there = rig.acting();
     assert!(there[0] > 50, "{there:?}");
-    let damages: [(&str, fn(&Path)); 5] = [
+    let damages: [(&str, Damage); 5] = [
         ("none", |_| {}),
         ("zeros", |file| fs::write(file, [0; 4096]).expect("written")),
         ("empty", |file| fs::write(file, "").expect("written")),

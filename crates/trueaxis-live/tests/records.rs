@@ -14,7 +14,7 @@ use trueaxis_live::part::{PartRecorder, part_heading};
 use trueaxis_live::parts::LivePart;
 use trueaxis_live::start::owner;
 use trueaxis_live::status::{LiveState, LiveStatus, live_state, status_json};
-use trueaxis_live::store::{DiskStore, StoreFault, begin_part, part_path};
+use trueaxis_live::store::{DiskStore, StoreFault, ask_datum, begin_part, part_path};
 
 /// A plan whose journal is in a folder of the test.
 struct Place {
@@ -135,6 +135,10 @@ fn a_record_with_gaps_does_not_say_throughout() {
         text.contains("1 times another run went on with it") && !text.contains(WHOLE),
         "{text}"
     );
+    // The second run has gone on for longer before its first row.
+    let later = row(10.0).replace(",1000,", ",1030,");
+    write(&[row(8.0), row(9.0), later].concat());
+    assert!(place.show().0.contains("1 times another run went on with it"));
     write(&[row(1.0), "# program 0, block 7: no target\n".to_owned(), row(2.0)].concat());
     let (text, _) = place.show();
     assert!(
@@ -232,6 +236,10 @@ fn law_a_folder_of_a_person_is_refused() {
         let files = fs::read_dir(&place.folder).expect("a folder").count();
         assert_eq!((text.as_str(), files), ("a person's", 1), "{name}");
     }
+    let place = Place::new("records-own-datum");
+    fs::write(place.folder.join("datum.json"), "a person's").expect("written");
+    assert!(ask_datum(&place.folder, true, false).is_err());
+    assert!(place.folder.join("datum.json").exists());
     // What a run has made, the next one goes on with.
     let place = Place::new("records-own");
     drop(DiskStore::open_beside(None, &place.folder, &owner).expect("opened"));

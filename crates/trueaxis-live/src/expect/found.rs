@@ -88,7 +88,7 @@ impl Found {
     }
 
     /// How fast the temperatures alone move the offsets.
-    pub fn changes(&mut self, since_s: Option<f64>, before: Option<&Offsets>, now: &Offsets) {
+    pub fn changes(&mut self, since_s: Option<f64>, before: Option<&Errors>, now: &Errors) {
         let Some((before, since_s)) = before.zip(since_s.filter(|s| *s > 0.0)) else { return };
         for (worst, (before, now)) in self.axes.iter_mut().zip(before.iter().zip(now)) {
             let moved = largest(before.iter().zip(now).map(|(a, b)| b - a));

@@ -95,7 +95,7 @@ fn own_root() -> Option<PathBuf> {
 }
 
 /// A file with a name of ours in a folder that no run has opened: it is of a person.
-fn foreign_file(folder: &Path) -> Option<&'static str> {
+pub(super) fn foreign_file(folder: &Path) -> Option<&'static str> {
     let is_ours = folder.join("lock").exists() || !last_events(folder, 1).is_empty();
     NAMES.into_iter().filter(|_| !is_ours).find(|name| folder.join(name).exists())
 }
