@@ -231,7 +231,7 @@ fn law_a_folder_of_a_person_is_refused() {
         let place = Place::new(&format!("records-own-{name}"));
         fs::write(place.folder.join(name), "a person's").expect("written");
         let opened = DiskStore::open_beside(None, &place.folder, &owner);
-        assert!(matches!(opened, Err(StoreFault::Foreign(found)) if found == name), "{name}");
+        assert!(matches!(opened, Err(StoreFault::Foreign(found)) if found.0 == name), "{name}");
         let text = fs::read_to_string(place.folder.join(name)).expect("it is there");
         let files = fs::read_dir(&place.folder).expect("a folder").count();
         assert_eq!((text.as_str(), files), ("a person's", 1), "{name}");

@@ -1,6 +1,6 @@
 //! `datum.json`: the zero of the part over restarts; and the file by which another process asks for one.
 
-use super::disk::{StoreFault, foreign_file};
+use super::foreign::foreign_file;
 use super::kept::kept;
 use crate::datum::DatumOrder;
 use crate::setups::SetupDatum;
@@ -63,7 +63,7 @@ pub fn ask_datum(folder: &Path, clear: bool, is_running: bool) -> Result<(), Str
             trueaxis::files::write(&path, text.as_bytes()).map_err(|error| error.to_string())
         }
         false => match foreign_file(folder) {
-            Some(name) => Err(StoreFault::Foreign(name).to_string()),
+            Some(file) => Err(file.to_string()),
             None => keep(folder, None),
         },
     }

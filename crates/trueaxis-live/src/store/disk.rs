@@ -4,6 +4,7 @@
 //! The journal only grows by events, never by cycles.
 
 use super::datum::{KeptDatums, asked, keep};
+use super::foreign::{Foreign, foreign_file};
 use super::heat::{KEPT, KeptHeat};
 use super::history::history_file;
 use super::kept::kept;
@@ -27,19 +28,6 @@ use std::path::{Path, PathBuf};
 const STATE: &str = "state.json";
 /// Its presence asks a run for its end.
 const STOP: &str = "stop";
-/// What a run writes over or removes.
-const NAMES: [&str; 10] = [
-    STATE,
-    "metrics.prom",
-    STOP,
-    "datum-asked",
-    "history.csv",
-    "history-before.csv",
-    "journal.jsonl",
-    OWNED,
-    "datum.json",
-    KEPT,
-];
 /// Why a store cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreFault {
@@ -50,8 +38,8 @@ pub enum StoreFault {
     #[error("it is of {0}")]
     Other(String),
     /// No run has made it, and a file in it has a name that runs write over or remove.
-    #[error("it has a file `{0}` that no run has made")]
-    Foreign(&'static str),
+    #[error("{0}")]
+    Foreign(Foreign),
     /// The disk.
     #[error("it cannot be opened: {0}")]
     Disk(#[from] io::Error),
@@ -92,12 +80,6 @@ fn own_root() -> Option<PathBuf> {
     let state =
         variable("XDG_STATE_HOME").or_else(|| Some(variable("HOME")?.join(".local/state")))?;
     Some(state.join("trueaxis/live"))
-}
-
-/// A file with a name of ours in a folder that no run has opened: it is of a person.
-pub(super) fn foreign_file(folder: &Path) -> Option<&'static str> {
-    let is_ours = folder.join("lock").exists() || !last_events(folder, 1).is_empty();
-    NAMES.into_iter().filter(|_| !is_ours).find(|name| folder.join(name).exists())
 }
 
 /// Whether the last run that has written this journal did not come to its end.
