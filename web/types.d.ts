@@ -338,6 +338,9 @@ export type Reason =
     }
   | {
       kind: "difference";
+    }
+  | {
+      kind: "lost";
     };
 /**
  * The check of a program, or why there is none.
@@ -7878,7 +7881,7 @@ export interface LiveExpect {
    */
   axes: ExpectedAxis[];
   /**
-   * Each row of the log that was evaluated.
+   * Its rows, at most 500: of a longer log the first of so many, with the largest errors of all of them.
    */
   times: ExpectedTime[];
   /**
@@ -7976,6 +7979,10 @@ export interface ExpectedAxis {
    */
   needed_per_s: number | null;
   /**
+   * How fast it must change for the temperatures alone, from one row to the next. Unit: that of `unit`.
+   */
+  warms_per_s: number;
+  /**
    * How fast it may change. Unit: that of `unit`.
    */
   slew_per_s: number;
@@ -7988,12 +7995,13 @@ export interface ExpectedAxis {
    */
   limit: number;
   /**
-   * Expanded uncertainty (k = 2) of the error that is corrected, by the machine file; null where it states none. Unit: that of `unit`.
+   * Expanded uncertainty (k = 2) of the error that is corrected, by the machine file, the largest over the day; null where it
+   * states none. Unit: that of `unit`.
    */
   expanded_uncertainty: number | null;
 }
 /**
- * One row of the log.
+ * One row of the log, or the largest of some.
  */
 export interface ExpectedTime {
   /**
@@ -8185,6 +8193,14 @@ export interface LivePartEntry {
    * How many these are.
    */
   not_followed_count: number;
+  /**
+   * How often another run went on with it: what was made in between is not in it.
+   */
+  interruptions: number;
+  /**
+   * Blocks of which nothing was known: they have no row.
+   */
+  unknown_blocks: number;
   /**
    * The live axes.
    */
@@ -8500,8 +8516,8 @@ export interface LiveEventEntry {
   reason: string;
 }
 /**
- * The last hours of a plan. Each line has the largest deviation of its ten seconds, each point that of its lines, so that no peak
- * is lost.
+ * The last hours of a plan, up to now. Each line has the largest deviation of its ten seconds, each point that of its lines, so that
+ * no peak is lost.
  */
 export interface LiveHistory {
   /**
@@ -8554,7 +8570,7 @@ export interface LiveHistoryAxis {
    */
   left_max: number | null;
   /**
-   * The root mean square without the correction; null as above. Unit: that of `unit`.
+   * The root mean square over all cycles without the correction; null as above. Unit: that of `unit`.
    */
   before_rms: number | null;
   /**

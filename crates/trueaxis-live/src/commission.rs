@@ -7,7 +7,7 @@ use crate::clock::{Clock, RealClock};
 use crate::file::{Commissioned, Plan, read_plan_to_commission};
 use crate::governor::State;
 use crate::run::{Run, Wish};
-use crate::session::{Opened, Stopped, is_gone, open, own_mock, refused, unusable};
+use crate::session::{Opened, Stopped, at_start, is_gone, open, own_mock, refused, unusable};
 use crate::start::{owner, sensors_of};
 use crate::status::folder_of;
 use crate::store::DiskStore;
@@ -75,16 +75,17 @@ pub fn commission(
     let Opened { control, identity, held } = open(&plan, mock.as_ref(), &clock)?;
     let folder = folder_of(&plan, &mut problems).ok_or_else(|| problems.clone())?;
     let opened = DiskStore::open(&folder, &owner(&plan, &identity));
-    let (store, owned) = opened.map_err(|fault| unusable(&folder, &fault, problems.clone()))?;
-    let owned = held.or(owned).filter(|_| mock.is_none());
+    let (store, earlier) = opened.map_err(|fault| unusable(&folder, &fault, problems.clone()))?;
+    let earlier = at_start(held, earlier, mock.is_some());
     let mut target = vec![0.0; plan.settings.axes.len()];
     // As a person would type it at the control: `sign` is what is tried. Of a line both ends: the same all along the axis.
-    let due = asked.by / plan.axes[live].increment;
+    let due = (asked.by / plan.axes[live].increment).round();
     let own = plan.offsets_of(live);
     target[own.clone()].fill(due);
     let slew_s = (due / plan.axes[live].limits.slew_per_s).abs();
-    let run = Run::new(&plan, owned, control, sensors_of(&plan), store).with_target(target.clone());
-    let tried = drive((run, &plan), (&clock, stopped), (own, due.round()), (slew_s, tell, said));
+    let run =
+        Run::new(&plan, earlier, control, sensors_of(&plan), store).with_target(target.clone());
+    let tried = drive((run, &plan), (&clock, stopped), (own, due), (slew_s, tell, said));
     Ok((plan, tried))
 }
 
@@ -104,6 +105,12 @@ fn axis_of(
     let counted = (asked.by / axis.increment).abs();
     if !(1.0..=f64::from(axis.limits.limit)).contains(&counted) {
         let message = "less than one increment of the axis, or more than its limit".to_owned();
+        problems.error("live-limit", Place::whole("--by"), message, "such as \"10 um\"");
+        return Err(problems);
+    }
+    // The control takes whole increments: the ratio would be that of another offset.
+    if (counted - counted.round()).abs() > 1e-6 * counted {
+        let message = format!("{counted:.3} increments of the axis are no whole number of them");
         problems.error("live-limit", Place::whole("--by"), message, "such as \"10 um\"");
         return Err(problems);
     }
@@ -173,6 +180,16 @@ pub fn moved_ratio(plan: &Plan, axis: &str, wrote: f64, measured: f64) -> f64 {
     Commissioned { wrote, measured, evidence: String::new() }.ratio(sign)
 }
 
+/// A text as a basic string of TOML holds it.
+fn escaped(text: &str) -> String {
+    let one = |c: char| match c {
+        '"' | '\\' => format!("\\{c}"),
+        c if c.is_control() => format!("\\u{:04X}", u32::from(c)),
+        c => c.to_string(),
+    };
+    text.chars().map(one).collect()
+}
+
 /// The line for the plan.
 pub fn evidence_line(
     plan: &Plan,
@@ -187,7 +204,7 @@ pub fn evidence_line(
         Some(AxisKind::Rotary) => format!("{:.6} deg", value.to_degrees()),
         _ => format!("{:.3} um", value * 1e3),
     };
-    let (wrote, measured) = (shown(wrote), shown(measured));
+    let (wrote, measured, evidence) = (shown(wrote), shown(measured), escaped(evidence));
     format!(
         "commissioned = {{ wrote = \"{wrote}\", measured = \"{measured}\", evidence = \"{evidence}\" }}"
     )

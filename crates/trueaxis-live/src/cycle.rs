@@ -4,7 +4,7 @@
 use crate::control::{LinkFault, Seen};
 use crate::datum::{Datum, DatumOrder, DatumOutcome, Touch, touched};
 use crate::file::{Plan, PlannedDatum};
-use crate::governor::{Governor, Inputs, Order, Owned, Reason, State};
+use crate::governor::{Earlier, Governor, Inputs, Order, Owned, Reason, State};
 use crate::memory::HeatOfRun;
 use crate::model::{LiveAxis, Model, Target};
 use crate::pose::Frame;
@@ -86,7 +86,7 @@ pub struct Correction {
 
 impl Correction {
     /// Of a plan, with what the journal knows.
-    pub fn new(plan: &Plan, owned: Option<Owned>) -> Self {
+    pub fn new(plan: &Plan, earlier: impl Into<Earlier>) -> Self {
         let axes = plan.axes.iter().map(LiveAxis::from).collect();
         let model = Model::new(plan.machine.clone(), plan.of, plan.part, axes);
         let model = match plan.control.takes_pose() {
@@ -97,7 +97,7 @@ impl Correction {
         let mut correction = Self {
             watch: Watch::new(plan.sensors.iter().map(|s| s.settings.clone()).collect()),
             model,
-            governor: Governor::new(plan.settings.clone(), owned),
+            governor: Governor::new(plan.settings.clone(), earlier),
             last_s: None,
             constant: None,
             setups: Setups::default(),

@@ -1,22 +1,28 @@
 //! What would this lever leave of the tool on a recorded day? Asked before a control is touched.
 //!
 //! ```text
-//!     T(t) of the log ──Machine::at──> errors over the travel at every row
+//!     T(t) of the log ──Machine::at──> errors over the travel at every row, less what was off where the zero was touched
 //!     offset(t, q) = −e of the sample before, in whole increments, follows with a dead band
 //!     left(t, q)   = e(t, q) + offset + v · |de/dq| · age
 //! ```
+//!
+//! Every row is one sample: of equal rows only the first is computed.
 
+mod found;
 mod losses;
 mod poses;
+mod remarks;
 mod report;
 
 pub use losses::ExpectedLoss;
 pub use poses::{ExpectedOffset, ExpectedPoses};
 
-use crate::cycle::AGE_PERIODS;
+use crate::cycle::Correction;
 use crate::file::{AxisPlan, Plan, SensorPlan, Source, read_plan};
+use crate::governor::Earlier;
 use crate::line::Line;
-use crate::model::{LiveAxis, Model, at, remembered};
+use crate::model::{LiveAxis, Model, at, clamped, remembered};
+use found::Found;
 use losses::{Day, HOUR_S, TEN_MINUTES_S};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -24,7 +30,7 @@ use std::path::PathBuf;
 use trueaxis::compensate::values::travel_positions;
 use trueaxis::input::{Diagnostics, Files, Place};
 use trueaxis::machine::Machine;
-use trueaxis::machine::axis::{AxisKind, Command};
+use trueaxis::machine::axis::Command;
 use trueaxis::machine::heat::{TemperatureLog, ThermalMemory};
 use trueaxis::questions::{Question, Tell};
 use trueaxis_report::JsonSchema;
@@ -57,7 +63,7 @@ pub struct LiveExpectDocument {
     pub log: String,
     /// Each live axis over the whole day.
     pub axes: Vec<ExpectedAxis>,
-    /// Each row of the log that was evaluated.
+    /// Its rows, at most 500: of a longer log the first of so many, with the largest errors of all of them.
     pub times: Vec<ExpectedTime>,
     /// What the loss of each sensor costs on that day.
     pub losses: Vec<ExpectedLoss>,
@@ -94,17 +100,20 @@ pub struct ExpectedAxis {
     pub moving: Option<f64>,
     /// How fast the offset must change then, in the unit per second; null as above. Unit: that of `unit`.
     pub needed_per_s: Option<f64>,
+    /// How fast it must change for the temperatures alone, from one row to the next. Unit: that of `unit`.
+    pub warms_per_s: f64,
     /// How fast it may change. Unit: that of `unit`.
     pub slew_per_s: f64,
     /// The largest offset that is needed; it is clamped at the limit. Unit: that of `unit`.
     pub needed: f64,
     /// The limit of the plan. Unit: that of `unit`.
     pub limit: f64,
-    /// Expanded uncertainty (k = 2) of the error that is corrected, by the machine file; null where it states none. Unit: that of `unit`.
+    /// Expanded uncertainty (k = 2) of the error that is corrected, by the machine file, the largest over the day; null where it
+    /// states none. Unit: that of `unit`.
     pub expanded_uncertainty: Option<f64>,
 }
 
-/// One row of the log.
+/// One row of the log, or the largest of some.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct ExpectedTime {
     /// In the log.
@@ -154,7 +163,8 @@ impl Question for ExpectLive {
     ) -> Option<LiveExpectAnswer> {
         match expect(&plan, &log, self.without.as_deref()) {
             Ok(found) => {
-                remark_on_ranges(&plan, &log, problems);
+                remarks::on_sensors(&plan, &log, problems);
+                remarks::on_slew(&plan, &found, problems);
                 Some(LiveExpectAnswer(found))
             }
             Err(message) => {
@@ -168,26 +178,6 @@ impl Question for ExpectLive {
                 None
             }
         }
-    }
-}
-
-/// The correction does not use a reading outside the range of its sensor; a forecast from it is one of another plan.
-fn remark_on_ranges(plan: &Plan, log: &TemperatureLog, problems: &mut Diagnostics) {
-    for sensor in &plan.sensors {
-        let Some(celsius) = log.celsius(column(sensor)) else { continue };
-        let [low, high] = sensor.settings.range;
-        let outside: Vec<f64> =
-            celsius.iter().copied().filter(|c| !(low..=high).contains(c)).collect();
-        let Some(first) = outside.first() else { continue };
-        let name = &sensor.settings.name;
-        let message = format!(
-            "{} of {} readings of `{name}` are outside its range of {low} to {high} °C, {first} °C for one: the correction \
-             would not use them, this forecast does",
-            outside.len(),
-            celsius.len()
-        );
-        let hint = format!("is range of [sensor.{name}] right for this day?");
-        problems.warn("live-range", Place::whole(&plan.path.display().to_string()), message, &hint);
     }
 }
 
@@ -206,10 +196,52 @@ type Errors = Vec<Vec<f64>>;
 /// The column of the log that a sensor is read from.
 type Column<'a> = &'a dyn Fn(&SensorPlan) -> String;
 
-/// The errors of one axis over its travel at the temperatures of a row.
+/// The errors of all axes over their travels at the temperatures of a row.
 struct Row {
     warm: Machine,
     errors: Errors,
+}
+
+/// The rows of a log, one after the other; rows with the same readings are computed once.
+struct Rows<'a> {
+    plan: &'a Plan,
+    model: &'a Model,
+    places: &'a [Vec<f64>],
+    heat: Heat<'a>,
+    /// What was off where the zero was touched. Unit: mm or rad.
+    at_touch: Vec<f64>,
+    /// The last row that was computed, and its place.
+    last: Option<(usize, Row)>,
+}
+
+impl<'a> Rows<'a> {
+    fn of(
+        plan: &'a Plan,
+        model: &'a Model,
+        (log, column): (&'a TemperatureLog, Column<'a>),
+        places: &'a [Vec<f64>],
+    ) -> Result<Self, String> {
+        let (heat, at_touch) = (Heat::of(plan, log, column), off_at_touch(plan)?);
+        Ok(Self { plan, model, places, heat, at_touch, last: None })
+    }
+
+    /// Goes on to a row; whether it differs from the one before.
+    fn go_to(&mut self, i: usize) -> Result<bool, String> {
+        let is_same = |at: usize| self.heat.readings(at) == self.heat.readings(i);
+        if self.heat.memory.is_none() && self.last.as_ref().is_some_and(|(at, _)| is_same(*at)) {
+            return Ok(false);
+        }
+        let mut found = row(self.plan, self.model, (&mut self.heat, i), self.places)?;
+        for (errors, off) in found.errors.iter_mut().zip(&self.at_touch) {
+            errors.iter_mut().for_each(|error| *error -= off);
+        }
+        self.last = Some((i, found));
+        Ok(true)
+    }
+
+    fn row(&self) -> Result<&Row, String> {
+        self.last.as_ref().map(|(_, row)| row).ok_or_else(|| "the log has no row".to_owned())
+    }
 }
 
 /// The forecast of a day.
@@ -235,43 +267,91 @@ pub fn expect(
     let places: Vec<Vec<f64>> =
         plan.axes.iter().map(|axis| places(&plan.machine, axis.axis)).collect();
     let mut found = Found::new(plan);
-    let mut rows: Vec<(usize, Errors)> = Vec::new();
-    let mut held: Vec<(usize, Offsets)> = Vec::new();
     let own = |sensor: &SensorPlan| column(sensor).to_owned();
-    let mut heat = Heat::of(plan, log, &own);
-    let mut last = None;
-    for (i, is_shown) in moments(log.times_s(), MOST_ROWS) {
-        let row = row(plan, &model, (&mut heat, i), &places)?;
-        if is_shown {
-            let sampled = rows.last().map_or(&row.errors, |(_, errors)| errors);
-            let now = follow(plan, (sampled, &places), held.last().map(|(_, before)| before));
-            found.add(plan, log.times_s()[i], (&row.errors, sampled, &now), &places);
-            found.others(plan, &row, &places)?;
-            held.push((rows.len(), now));
+    let mut rows = Rows::of(plan, &model, (log, &own), &places)?;
+    let times = log.times_s();
+    let telling = moments(log, &columns(plan), UNCERTAIN_ROWS);
+    let (mut errors, mut held): (Vec<Errors>, Vec<(usize, Offsets)>) = (Vec::new(), Vec::new());
+    let mut before: Option<Offsets> = None;
+    for i in 0..times.len() {
+        let is_new = rows.go_to(i)?;
+        let row = rows.row()?;
+        let sampled = errors.last().unwrap_or(&row.errors);
+        let now = follow(plan, (sampled, &places), before.as_ref());
+        let since_s = i.checked_sub(1).map(|last| times[i] - times[last]);
+        found.changes(since_s, errors.last(), &row.errors);
+        let is_shown = i % shown_step(times.len()) == 0;
+        found.add(plan, (times[i], is_shown), (&row.errors, sampled, &now), &places);
+        if is_new {
+            found.others(plan, (&model, &row.warm), &places)?;
         }
-        rows.push((i, row.errors));
-        last = Some(row.warm);
+        if telling.contains_key(&i) {
+            found.uncertainty(plan, &row.warm, &places);
+        }
+        errors.push(row.errors.clone());
+        if is_shown {
+            held.push((i, now.clone()));
+        }
+        before = Some(now);
     }
-    found.uncertainty(plan, &last.ok_or("the log has no row")?, &places);
-    let day = Day { plan, model: &model, log, places: &places, rows, held };
+    if errors.is_empty() {
+        return Err("the log has no row".to_owned());
+    }
+    let after = found.after(plan);
+    let day = Day { plan, model: &model, log, places: &places, errors, held, after };
     Ok(found.document(plan, log, day.losses(without)?))
 }
 
-/// Which rows of a log are evaluated, in their order: at most so many over the day, which are shown; with each the row before it,
-/// that its sample is of, and the last rows within ten minutes and within an hour after it. So what a forecast says does not
-/// depend on how many rows a log has.
-fn moments(times_s: &[f64], most: usize) -> Vec<(usize, bool)> {
+/// Of so many rows one is shown.
+fn shown_step(rows: usize) -> usize {
+    rows.div_ceil(MOST_ROWS).max(1)
+}
+
+/// Rows at which the uncertainty is computed, besides those with the extremes of a sensor.
+const UNCERTAIN_ROWS: usize = 30;
+
+fn columns(plan: &Plan) -> Vec<&str> {
+    plan.sensors.iter().map(column).collect()
+}
+
+/// Which rows of a log tell of its day, in their order, where not all of them are evaluated: so many evenly over it, which are
+/// shown (`true`), with each the row before it, that its sample is of, and the last rows within ten minutes and within an hour
+/// after it. Also, shown: between two of them the one that changes most from the row before it, and the extremes of each sensor.
+fn moments(log: &TemperatureLog, columns: &[&str], most: usize) -> BTreeMap<usize, bool> {
+    let times_s = log.times_s();
+    let values: Vec<&[f64]> = columns.iter().filter_map(|column| log.celsius(column)).collect();
     let step = times_s.len().div_ceil(most).max(1);
     let mut found = BTreeMap::new();
-    for i in (0..times_s.len()).step_by(step) {
+    let change = |i: usize| {
+        values.iter().map(|column| (column[i] - column[i - 1]).abs()).fold(0.0, f64::max)
+    };
+    let mut shown: Vec<usize> = (0..times_s.len()).step_by(step).collect();
+    for i in shown.clone() {
         for span_s in [TEN_MINUTES_S, HOUR_S] {
             let after = times_s.partition_point(|t| *t <= times_s[i] + span_s);
             found.entry(after - 1).or_insert(false);
         }
+        let within = i.max(1)..(i + step).min(times_s.len());
+        shown.extend(within.max_by(|a, b| change(*a).total_cmp(&change(*b))));
+    }
+    for column in values {
+        let rows = 0..column.len();
+        shown.extend(rows.clone().max_by(|a, b| column[*a].total_cmp(&column[*b])));
+        shown.extend(rows.min_by(|a, b| column[*a].total_cmp(&column[*b])));
+    }
+    for i in shown {
         found.entry(i.saturating_sub(1)).or_insert(false);
         found.insert(i, true);
     }
-    found.into_iter().collect()
+    found
+}
+
+/// What was off of each live axis where the plan says that the zero of the part was touched: it is in the zero. Unit: mm or rad.
+fn off_at_touch(plan: &Plan) -> Result<Vec<f64>, String> {
+    let Some(planned) = &plan.datum else { return Ok(vec![0.0; plan.axes.len()]) };
+    let touched = Correction::new(plan, Earlier::Nothing).planned_datum(planned);
+    // Nothing acted then: what was missing of the correction is minus the error.
+    Ok(touched.map_err(|reason| reason.to_string())?.missing.iter().map(|m| -m).collect())
 }
 
 fn model_of(plan: &Plan) -> Model {
@@ -289,8 +369,9 @@ fn places(machine: &Machine, axis: usize) -> Vec<f64> {
     travel_positions(own, step).unwrap_or_else(|| vec![0.0])
 }
 
+/// The other axes at 0, or at the end of their travel that is next to it.
 fn command_at(plan: &Plan, live: usize, place: f64) -> Command {
-    let mut command = Command::default();
+    let (mut command, _) = clamped(&plan.machine, &Command::default());
     command[plan.axes[live].axis] = place;
     command
 }
@@ -393,159 +474,4 @@ fn followed(own: &AxisPlan, wanted: f64, before: Option<f64>) -> f64 {
     let held = before.map(|before| before / own.increment);
     let stays = held.filter(|held| (target - held).abs() < own.limits.dead_band.max(1.0));
     stays.unwrap_or_else(|| target.round()) * own.increment
-}
-
-/// What was found so far, mm and rad.
-#[derive(Default)]
-struct Found {
-    axes: Vec<Worst>,
-    times: Vec<ExpectedTime>,
-    other_mm: f64,
-    turned_rad: f64,
-}
-
-#[derive(Default, Clone)]
-struct Worst {
-    before: f64,
-    after: f64,
-    by_age: f64,
-    by_increment: f64,
-    slope: f64,
-    needed: f64,
-    u: Option<f64>,
-}
-
-fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.map(f64::abs).fold(0.0, f64::max)
-}
-
-fn shown(plan: &Plan, live: usize) -> f64 {
-    match plan.machine.axes()[plan.axes[live].axis].kind {
-        AxisKind::Linear => 1e3,
-        AxisKind::Rotary => 1e6,
-    }
-}
-
-impl Found {
-    fn new(plan: &Plan) -> Self {
-        let axes = vec![Worst::default(); plan.axes.len()];
-        Self { axes, times: Vec::new(), other_mm: 0.0, turned_rad: 0.0 }
-    }
-
-    fn add(
-        &mut self,
-        plan: &Plan,
-        time_s: f64,
-        (errors, sampled, held): (&Errors, &Errors, &Offsets),
-        places: &[Vec<f64>],
-    ) {
-        let (mut before, mut after) = (Vec::new(), Vec::new());
-        for (live, worst) in self.axes.iter_mut().enumerate() {
-            let (errors, then, held) = (&errors[live], &sampled[live], &held[live]);
-            let left = errors.iter().zip(held).map(|(e, h)| e + h);
-            let (without, with) = (largest(errors.iter().copied()), largest(left));
-            worst.before = worst.before.max(without);
-            worst.after = worst.after.max(with);
-            worst.by_age = worst.by_age.max(largest(errors.iter().zip(then).map(|(e, t)| e - t)));
-            worst.by_increment =
-                worst.by_increment.max(largest(then.iter().zip(held).map(|(t, h)| t + h)));
-            worst.needed = worst.needed.max(largest(then.iter().copied()));
-            let steps = errors.windows(2).zip(places[live].windows(2));
-            // A control that follows the position by itself is not late with it.
-            if plan.axes[live].line.is_none() {
-                let slopes = steps.map(|(e, q)| (e[1] - e[0]) / (q[1] - q[0]));
-                worst.slope = worst.slope.max(largest(slopes));
-            }
-            before.push(without * shown(plan, live));
-            after.push(with * shown(plan, live));
-        }
-        self.times.push(ExpectedTime { time_s, before, after });
-    }
-
-    /// What the live axes do not correct: of the deviation at each place that which is not the error of an axis in its own
-    /// direction, and the tool axis.
-    fn others(&mut self, plan: &Plan, row: &Row, places: &[Vec<f64>]) -> Result<(), String> {
-        for (live, places) in places.iter().enumerate() {
-            for (i, place) in places.iter().enumerate() {
-                let command = command_at(plan, live, *place);
-                let errors = row.warm.errors_at(&command, &[0.0; 6]).map_err(|e| e.to_string())?;
-                let deviation = row.warm.deviation(&command, &errors);
-                let mut tip_mm = deviation.tip_mm;
-                for (other, axis) in plan.axes.iter().enumerate() {
-                    if plan.machine.axes()[axis.axis].kind != AxisKind::Linear {
-                        continue;
-                    }
-                    // The error of another live axis at its zero.
-                    let error =
-                        if other == live { row.errors[live][i] } else { row.errors[other][0] };
-                    let mut step = command;
-                    step[axis.axis] += 1.0;
-                    let none = Default::default();
-                    let along = row.warm.pose(&step, &none).shift_mm()
-                        - row.warm.pose(&command, &none).shift_mm();
-                    tip_mm -= along * error;
-                }
-                self.other_mm = self.other_mm.max(tip_mm.norm());
-                self.turned_rad = self.turned_rad.max(deviation.axis.norm());
-            }
-        }
-        Ok(())
-    }
-
-    fn uncertainty(&mut self, plan: &Plan, last: &Machine, places: &[Vec<f64>]) {
-        use trueaxis::compensate::values::{Order, compensation_values};
-        for (live, worst) in self.axes.iter_mut().enumerate() {
-            let axis = &plan.axes[live];
-            let (positions, increment) = (places[live].clone(), axis.increment);
-            let order = Order {
-                axis: axis.axis,
-                command: Command::default(),
-                positions,
-                increment,
-                of: plan.of,
-            };
-            let table = compensation_values(last, &order).ok();
-            let u = table.iter().flat_map(|t| &t.nodes).filter_map(|n| n.u);
-            worst.u = u.fold(None, |most: Option<f64>, u| Some(most.map_or(u, |m| m.max(u))));
-        }
-    }
-
-    fn document(
-        self,
-        plan: &Plan,
-        log: &TemperatureLog,
-        losses: Vec<ExpectedLoss>,
-    ) -> LiveExpectDocument {
-        let axis = |(live, worst): (usize, &Worst)| {
-            let (own, scale) = (&plan.axes[live], shown(plan, live));
-            let machine = &plan.machine.axes()[own.axis];
-            let speed = machine.limits.velocity;
-            ExpectedAxis {
-                axis: own.name.clone(),
-                unit: if machine.kind == AxisKind::Linear { "um" } else { "urad" },
-                on_line: own.line.is_some(),
-                before: worst.before * scale,
-                after: worst.after * scale,
-                by_age: worst.by_age * scale,
-                by_increment: worst.by_increment * scale,
-                moving: speed.map(|v| v * worst.slope * AGE_PERIODS * plan.period_s * scale),
-                needed_per_s: speed.map(|v| v * worst.slope * scale),
-                slew_per_s: own.limits.slew_per_s * own.increment * scale,
-                needed: worst.needed * scale,
-                limit: f64::from(own.limits.limit) * own.increment * scale,
-                expanded_uncertainty: worst.u.map(|u| 2.0 * u * scale),
-            }
-        };
-        LiveExpectDocument {
-            schema: "trueaxis/live-expect/1",
-            name: plan.name.clone(),
-            log: log.file().to_owned(),
-            axes: self.axes.iter().enumerate().map(axis).collect(),
-            times: self.times,
-            losses,
-            poses: None,
-            tool_axis_urad: (self.turned_rad > 0.0).then_some(self.turned_rad * 1e6),
-            other_tip_um: Some(self.other_mm * 1e3),
-        }
-    }
 }

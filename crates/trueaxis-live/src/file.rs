@@ -271,6 +271,10 @@ fn read_policy(section: &Section<'_>) -> Policy {
     let ramp_in_cut = section.get("ramp_in_cut").and_then(|item| item.flag()).unwrap_or(false);
     let modes = section.get("modes").and_then(|item| {
         let modes = item.list()?;
+        if modes.is_empty() {
+            let message = "without a mode the offsets never change".to_owned();
+            item.error("bad-list", message, "modes = [\"automatic\"]");
+        }
         modes.iter().map(|mode| word(mode, &Mode::NAMED)).collect::<Option<Vec<_>>>()
     });
     let difference = [("latch", OnDifference::Latch), ("adopt", OnDifference::Adopt)];

@@ -14,7 +14,7 @@ mod axis;
 mod reason;
 
 pub use axis::{AxisLimits, increments_of};
-pub use reason::{Reason, State};
+pub use reason::{Reason, STATES, State};
 
 use crate::control::{Mode, Seen};
 use axis::AxisMemory;
@@ -73,7 +73,30 @@ pub struct Owned {
     pub before: Vec<i32>,
 }
 
+/// What is known at the start of an earlier run.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum Earlier {
+    /// There was none, or it has left nothing: what stands in the control is another's.
+    #[default]
+    Nothing,
+    /// What it has left.
+    Owned(Owned),
+    /// There was one, and what it has left is not known any more.
+    Lost,
+}
+
+impl From<Option<Owned>> for Earlier {
+    fn from(owned: Option<Owned>) -> Self {
+        owned.map_or(Self::Nothing, Self::Owned)
+    }
+}
+
 impl Owned {
+    /// Nothing of ours is left in the control.
+    pub fn is_nothing(&self) -> bool {
+        self.last == self.base && self.before == self.base
+    }
+
     fn is_of(&self, axes: usize) -> bool {
         [&self.base, &self.last, &self.before].iter().all(|list| list.len() == axes)
     }
@@ -122,7 +145,7 @@ pub struct Governor {
     state: State,
     reason: Reason,
     axes: Vec<AxisMemory>,
-    owned: Option<Owned>,
+    earlier: Earlier,
     /// In Hold since, s.
     held_s: f64,
     /// A write that is not read back yet, and for how long.
@@ -146,14 +169,14 @@ pub struct Governor {
 
 impl Governor {
     /// Starts in [`State::Off`], with what the journal knows.
-    pub fn new(settings: Settings, owned: Option<Owned>) -> Self {
+    pub fn new(settings: Settings, earlier: impl Into<Earlier>) -> Self {
         let axes = settings.axes.iter().map(AxisMemory::new).collect();
         Self {
             settings,
             state: State::Off,
             reason: Reason::NotAsked,
             axes,
-            owned,
+            earlier: earlier.into(),
             held_s: 0.0,
             under_way_s: None,
             was_lost: false,
@@ -189,6 +212,11 @@ impl Governor {
     /// The present correction of each axis, in increments, base not included.
     pub fn corrections(&self) -> Vec<i32> {
         self.axes.iter().map(|a| a.own).collect()
+    }
+
+    /// Slew or step hold an axis back from its target.
+    pub fn is_behind(&self) -> bool {
+        self.axes.iter().any(|a| a.is_behind)
     }
 
     /// What comes next is no jump from the last target.
@@ -298,14 +326,18 @@ impl Governor {
     }
 
     /// What is owned, from this run or the journal.
-    fn known(&self) -> Option<Owned> {
-        if self.has_run { Some(self.owned()) } else { self.owned.clone() }
+    fn known(&self) -> Earlier {
+        if self.has_run { Earlier::Owned(self.owned()) } else { self.earlier.clone() }
     }
 
     /// Nothing of this run or of an earlier one is in the control, nor on its way there.
     fn has_nothing_there(&self) -> bool {
-        let nothing = |owned: Owned| owned.last == owned.base && owned.before == owned.base;
-        !self.may_still_come() && self.known().is_none_or(nothing)
+        let is_nothing = match self.known() {
+            Earlier::Nothing => true,
+            Earlier::Owned(owned) => owned.is_nothing(),
+            Earlier::Lost => false,
+        };
+        !self.may_still_come() && is_nothing
     }
 
     /// What was written last may become visible yet.
@@ -341,11 +373,19 @@ impl Governor {
         };
         let accepted = self.is_confirmed || self.settings.on_difference == OnDifference::Adopt;
         let base = match &self.known() {
-            Some(owned) if fits(owned) => owned.base.clone(),
-            Some(owned) if accepted && owned.is_of(self.axes.len()) => {
+            Earlier::Owned(owned) if fits(owned) => owned.base.clone(),
+            Earlier::Owned(owned) if accepted && owned.is_of(self.axes.len()) => {
                 owned.base_under(&seen.offsets)
             }
-            Some(_) if !accepted => return Some(self.latch(Reason::Difference, seen)),
+            Earlier::Owned(_) if !accepted => {
+                return Some(self.latch(Reason::Difference, seen));
+            }
+            // It may be ours, and the correction would be added to itself: only a person knows.
+            Earlier::Lost if !self.is_confirmed && seen.offsets.iter().any(|held| *held != 0) => {
+                return Some(self.latch(Reason::Lost, seen));
+            }
+            // Confirmed: what stands there counts as ours.
+            Earlier::Lost => vec![0; self.axes.len()],
             // Nothing of ours is known there: what stands there is another's.
             _ => seen.offsets.clone(),
         };
@@ -451,7 +491,7 @@ impl Governor {
         self.axes.iter_mut().for_each(|axis| axis.before = axis.whole());
         for (i, axis) in self.axes.iter_mut().enumerate() {
             let to = if target.is_empty() { Some(0) } else { axis.wanted(target[i]) };
-            changed |= to.is_some_and(|to| axis.go(to));
+            changed |= axis.go(to);
         }
         changed.then(|| {
             self.under_way_s = Some(0.0);

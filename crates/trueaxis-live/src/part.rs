@@ -12,7 +12,7 @@
 use crate::control::{Block, Seen};
 use crate::cycle::{Correction, STANDS};
 use crate::file::{AxisPlan, Plan};
-use crate::governor::State;
+use crate::governor::{Reason, State};
 use crate::pose::Frame;
 use crate::run::{Cycle, Run};
 use crate::status::is_linear;
@@ -38,6 +38,8 @@ pub struct PartRecorder {
 struct Open {
     block: Block,
     followed: bool,
+    /// In its last cycle slew or step held an axis back.
+    is_behind: bool,
     /// The largest that was off, with the offset, of each live axis; in the unit of its column.
     largest: Vec<f64>,
     /// The row as of its last cycle; none before anything was known.
@@ -99,12 +101,15 @@ impl PartRecorder {
         let new = || Open {
             block,
             followed: true,
+            is_behind: false,
             largest: vec![0.0; plan.axes.len()],
             row: None,
             lacks: String::new(),
         };
         let open = self.block.get_or_insert_with(new);
-        open.followed &= !is_dry && cycle.output.order.state == State::Run;
+        let order = &cycle.output.order;
+        open.followed &= !is_dry && order.state == State::Run && order.reason != Reason::Limit;
+        open.is_behind = correction.governor().is_behind();
         if let (Some(row), true) = (&row, is_known) {
             for (most, [.., left]) in open.largest.iter_mut().zip(&row.axes) {
                 *most = most.max(left.abs());
@@ -118,7 +123,7 @@ impl PartRecorder {
     pub fn end(&mut self) -> Option<String> {
         let open = self.block.take()?;
         Some(match open.row {
-            Some(row) => row.text(open.block, open.followed, &open.largest),
+            Some(row) => row.text(open.block, open.followed && !open.is_behind, &open.largest),
             None => {
                 let Block { program, number } = open.block;
                 format!("# program {program}, block {number}: {}", open.lacks)
@@ -217,7 +222,7 @@ pub const PART: &str = "part";
 pub const PART_LOST: &str = "part-lost";
 
 /// How far the tool is moved by so many increments of a live axis, in the unit of its column.
-fn scale(plan: &Plan, axis: &AxisPlan) -> f64 {
+pub(crate) fn scale(plan: &Plan, axis: &AxisPlan) -> f64 {
     axis.sign * axis.increment * if is_linear(plan, axis) { 1e3 } else { 1e6 }
 }
 
@@ -283,13 +288,31 @@ impl Row {
     }
 }
 
+/// The plan and machine file that a record was begun with, by its first lines.
+pub fn plan_hash_of(record: &str) -> Option<&str> {
+    let line =
+        record.lines().take_while(|l| l.starts_with('#')).find(|l| l.starts_with("# plan "))?;
+    let (plan, _) = line.rsplit_once("; machine ")?;
+    plan.rsplit_once(", ").map(|(_, hash)| hash)
+}
+
+/// The headings among the lines of a record.
+pub fn headings_of(record: &str) -> Option<&str> {
+    record.lines().find(|line| !line.starts_with('#'))
+}
+
+/// Blocks of a record of which nothing was known: they have no row.
+pub fn unknown_blocks_of(record: &str) -> usize {
+    record.lines().filter(|line| line.starts_with("# program ")).count()
+}
+
 /// The first lines of a record: what it is of, and the headings.
 pub fn part_heading(plan: &Plan, part: &str) -> String {
     let clean = |text: &str| text.replace(['\n', '\r'], " ");
     let mut text = format!(
         "# {part}: what acted at the end of each block and where X and Y stood\n\
          # plan {}, {}; machine {}\n\
-         # followed 1: the correction followed its target throughout the block; known 0: target and temperatures are the last \
+         # followed 1: the correction followed its target throughout the block, within its limits, and was there at its end; known 0: target and temperatures are the last \
          known ones; tcp 1: the offset was added to tip and angles\n\
          time_s,date_s,program,block,followed,known,tcp",
         clean(&plan.name),

@@ -1,6 +1,7 @@
 //! The parts that runs of a plan have recorded, as the document `trueaxis/live-part/1`.
 
 use crate::file::{Plan, read_plan};
+use crate::part::{headings_of, part_heading, plan_hash_of, unknown_blocks_of};
 use crate::status::{folder_of, is_linear};
 use crate::store::{part_now, part_path, parts};
 use serde::Serialize;
@@ -45,6 +46,10 @@ pub struct LivePartEntry {
     pub not_followed: Vec<LivePartRow>,
     /// How many these are.
     pub not_followed_count: usize,
+    /// How often another run went on with it: what was made in between is not in it.
+    pub interruptions: usize,
+    /// Blocks of which nothing was known: they have no row.
+    pub unknown_blocks: usize,
     /// The live axes.
     pub axes: Vec<LivePartAxis>,
     /// The sensors.
@@ -103,7 +108,7 @@ pub struct LivePartAnswer(LivePartDocument);
 const MOST_ROWS: usize = 50;
 
 impl Question for LivePart {
-    type Input = (Plan, PathBuf, Option<(String, CsvTable)>);
+    type Input = (Plan, PathBuf, Option<Record>);
     type Answer = LivePartAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
@@ -118,8 +123,12 @@ impl Question for LivePart {
         }
         let path = part_path(&folder, part);
         let text = files.text(&path, "the record of a part", problems)?;
-        let table = CsvTable::parse(&path.display().to_string(), &text, problems);
-        (!problems.has_errors()).then(|| (plan, folder, Some((part.clone(), table))))
+        let file = path.display().to_string();
+        check_plan(&plan, (part, &text), Place::whole(&file), problems);
+        let table = CsvTable::parse(&file, &text, problems);
+        let unknown_blocks = unknown_blocks_of(&text);
+        let record = Record { part: part.clone(), table, unknown_blocks };
+        (!problems.has_errors()).then_some((plan, folder, Some(record)))
     }
 
     fn answer(
@@ -133,12 +142,34 @@ impl Question for LivePart {
             name: plan.name.clone(),
             parts: parts(&folder),
             recording: part_now(&folder),
-            part: part.map(|(name, table)| entry(&plan, name, &table)),
+            part: part.map(|record| entry(&plan, record)),
         }))
     }
 }
 
-fn entry(plan: &Plan, part: String, table: &CsvTable) -> LivePartEntry {
+/// The record of one part.
+#[derive(Debug)]
+pub struct Record {
+    part: String,
+    table: CsvTable,
+    unknown_blocks: usize,
+}
+
+/// Whether a record is one of this plan: its axes and sensors are those of its own.
+fn check_plan(plan: &Plan, (part, text): (&str, &str), place: Place, problems: &mut Diagnostics) {
+    let hint = "show it with the plan that it was made with";
+    if headings_of(text) != headings_of(&part_heading(plan, part)) {
+        let message = "the record was made for other axes or sensors than those of the plan";
+        problems.error("live-part", place, message.to_owned(), hint);
+    } else if plan_hash_of(text) != Some(&plan.hash) {
+        let message =
+            "the record was begun with another plan or machine file, or they were edited since";
+        problems.warn("live-part", place, message.to_owned(), hint);
+    }
+}
+
+fn entry(plan: &Plan, record: Record) -> LivePartEntry {
+    let Record { part, table, unknown_blocks } = record;
     let column = |name: &str| table.column(name).map_or(&[][..], |c| c.values.as_slice());
     let range = |values: &[f64]| {
         let ends = (f64::INFINITY, f64::NEG_INFINITY);
@@ -176,9 +207,24 @@ fn entry(plan: &Plan, part: String, table: &CsvTable) -> LivePartEntry {
         ended_s: column("date_s").last().copied(),
         not_followed: shown.collect(),
         not_followed_count: lost.len(),
+        interruptions: interruptions(column("time_s"), column("date_s")),
+        unknown_blocks,
         axes: axes.collect(),
         sensors: sensors.collect(),
     }
+}
+
+/// A date and the clock of a run part by no more within a run, s.
+const DRIFT_S: f64 = 2.0;
+
+/// How often another run went on: each has a clock of its own, which begins at another date.
+fn interruptions(times_s: &[f64], dates_s: &[f64]) -> usize {
+    let pairs = times_s.windows(2).zip(dates_s.windows(2));
+    let is_other = |(times, dates): (&[f64], &[f64])| {
+        let (passed_s, by_date_s) = (times[1] - times[0], dates[1] - dates[0]);
+        passed_s < 0.0 || (by_date_s - passed_s).abs() > DRIFT_S
+    };
+    pairs.filter(|pair| is_other(*pair)).count()
 }
 
 impl Answer for LivePartAnswer {
@@ -227,8 +273,21 @@ fn part_report<'a>(report: Report<'a>, part: &'a LivePartEntry) -> Report<'a> {
             ),
         ))
         .section(Section::new("Sensors").table(Table::new(["sensor", "°C, least", "most"]).rows(sensors)));
+    let lacks = [
+        (part.rows == 0).then(|| "nothing is recorded yet".to_owned()),
+        Some(part.interruptions).filter(|n| *n > 0).map(|n| {
+            format!("{n} times another run went on with it: what was made in between is not in it")
+        }),
+        Some(part.unknown_blocks)
+            .filter(|n| *n > 0)
+            .map(|n| format!("{n} blocks of which nothing was known are not in it")),
+    ];
+    let lacks: Vec<String> = lacks.into_iter().flatten().collect();
+    let is_whole = lacks.is_empty();
+    let report = lacks.into_iter().fold(report, Report::line);
     match part.not_followed_count {
-        0 => report.line("the correction followed its target throughout"),
+        0 if is_whole => report.line("the correction followed its target throughout"),
+        0 => report,
         count => report.section(
             Section::new(format!("{count} rows without the correction, or with a part of it"))
                 .table(Table::new(["program", "block", "s from the start"]).rows(rows)),

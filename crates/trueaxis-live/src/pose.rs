@@ -95,6 +95,11 @@ impl World {
         Vec3::from_fn(|i, _| self.units[i].dot(vector))
     }
 
+    /// The vector in the workpiece of X, Y and Z as the control names them.
+    pub fn vector(&self, xyz: &Vec3) -> Vec3 {
+        (0..3).map(|i| self.units[i] * xyz[i]).sum::<Vec3>()
+    }
+
     /// From a command to the corrected one, as offsets of each axis in a frame.
     pub fn offset(&self, frame: Frame, from: &Command, to: &Command) -> Command {
         let mut by: Command = std::array::from_fn(|i| to[i] - from[i]);
@@ -122,7 +127,7 @@ impl World {
         let moves = match frame {
             Frame::Workpiece => *xyz,
             Frame::Machine => {
-                let vector = (0..3).map(|i| self.units[i] * xyz[i]).sum::<Vec3>();
+                let vector = self.vector(xyz);
                 let steps = trueaxis::geometry::Mat3::from_columns(&self.steps(at));
                 // why: X, Y and Z are square to each other, also where rotary axes turn the workpiece.
                 steps.try_inverse().expect("three directions") * vector

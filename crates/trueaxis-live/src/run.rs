@@ -5,7 +5,7 @@ use crate::control::{Control, LinkFault, Sent};
 use crate::cycle::{Correction, CycleInput, CycleOutput};
 use crate::datum::{DatumOrder, DatumOutcome};
 use crate::file::Plan;
-use crate::governor::{Owned, Reason, State};
+use crate::governor::{Earlier, Reason, State};
 use crate::memory::HeatOfRun;
 use crate::sensor::Sensor;
 use crate::setups::SetupDatum;
@@ -65,13 +65,13 @@ impl<'a> Run<'a> {
     /// Of a plan, with what the journal knows.
     pub fn new(
         plan: &Plan,
-        owned: Option<Owned>,
+        earlier: impl Into<Earlier>,
         control: Box<dyn Control + 'a>,
         sensors: Vec<Box<dyn Sensor + 'a>>,
         store: impl Store + 'a,
     ) -> Self {
         Self {
-            correction: Correction::new(plan, owned),
+            correction: Correction::new(plan, earlier),
             control,
             sensors,
             store: Box::new(store),

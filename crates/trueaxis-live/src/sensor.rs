@@ -12,6 +12,7 @@ pub mod opcua;
 mod watch;
 
 pub use log::LogSensor;
+pub(crate) use watch::DIGIT_K;
 pub use watch::{Judged, SensorFault, SensorSettings, Watch};
 
 use serde::{Deserialize, Serialize};

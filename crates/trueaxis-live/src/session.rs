@@ -6,8 +6,7 @@ use crate::cycle::{Correction, CycleInput};
 use crate::datum::DatumOrder;
 use crate::file::{ControlPlan, Plan, read_plan};
 use crate::focas::TcpWire;
-use crate::governor::Owned;
-use crate::governor::{Order, State};
+use crate::governor::{Earlier, Order, Owned, State};
 use crate::history::{HISTORY_S, Peaks, heading, line};
 use crate::memory::HeatOfRun;
 use crate::metrics::prometheus;
@@ -94,12 +93,11 @@ pub fn run_session(
         problems.warn("live-series", Place::whole(&plan.path.display().to_string()), doubt, hint);
     }
     let Some(folder) = folder_of(&plan, &mut problems) else { return Err(problems) };
-    let (mut store, owned) = match DiskStore::open(&folder, &owner(&plan, &identity)) {
-        Ok((store, owned)) => (store.of_plan(&plan.hash), owned),
+    let (mut store, earlier) = match DiskStore::open(&folder, &owner(&plan, &identity)) {
+        Ok((store, earlier)) => (store.of_plan(&plan.hash), earlier),
         Err(fault) => return Err(unusable(&folder, &fault, problems)),
     };
-    // A mock of its own begins with nothing in it; what only we can have written is ours.
-    let owned = held.or(owned).filter(|_| mock.is_none());
+    let earlier = at_start(held, earlier, mock.is_some());
     if let Some(path) = &session.record
         && let Err(error) = store.record_into(path)
     {
@@ -120,7 +118,7 @@ pub fn run_session(
             return Err(problems);
         }
     };
-    let run = Run::new(&plan, owned, control, sensors_of(&plan), store).with_heat(heat);
+    let run = Run::new(&plan, earlier, control, sensors_of(&plan), store).with_heat(heat);
     let mut run = if session.dry { run.dry() } else { run };
     match first_datum(&plan, &folder, (session.confirmed, run.correction())) {
         Ok(order) => order.into_iter().for_each(|order| run.ask_datum(order)),
@@ -190,6 +188,15 @@ pub(crate) struct Opened {
     pub identity: Identity,
     /// What it holds of us, where the control itself says so.
     pub held: Option<Owned>,
+}
+
+/// What is known of an earlier run: a control that says so itself knows best; a mock of its own begins with nothing in it.
+pub(crate) fn at_start(held: Option<Owned>, journal: Earlier, is_mock: bool) -> Earlier {
+    match (is_mock, held) {
+        (true, _) => Earlier::Nothing,
+        (false, Some(held)) => Earlier::Owned(held),
+        (false, None) => journal,
+    }
 }
 
 pub(crate) fn open(
@@ -263,6 +270,12 @@ pub(crate) fn unusable(
             place,
             message,
             "name another folder: [journal] folder = …; remove this one only if its offset is not in the control any more",
+        ),
+        StoreFault::Foreign(_) => problems.error(
+            "live-no-journal",
+            place,
+            message,
+            "a run would write over it or remove it: name a folder of its own",
         ),
         StoreFault::Disk(_) => problems.error(
             "live-no-journal",

@@ -283,12 +283,16 @@ fn shown_event(event: &Event) -> LiveEventEntry {
 
 /// The answer.
 #[derive(Debug)]
-pub struct LiveStatusAnswer(LiveStatusDocument);
+pub struct LiveStatusAnswer {
+    document: LiveStatusDocument,
+    /// The age of the state; none where there is none. Unit: s.
+    age_s: Option<u64>,
+}
 
 impl LiveStatusAnswer {
     /// The document itself.
     pub fn into_document(self) -> LiveStatusDocument {
-        self.0
+        self.document
     }
 }
 
@@ -308,47 +312,62 @@ impl Question for LiveStatus {
         _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<LiveStatusAnswer> {
+        let place = || Place::whole(&folder.join("state.json").display().to_string());
         let read = |value| serde_json::from_value::<LiveStatusDocument>(value).ok();
-        let last = last_state(&folder).map(read);
-        let last = match last {
-            None => None,
-            Some(Some(document)) => document.last,
-            Some(None) => {
-                let place = Place::whole(&folder.join("state.json").display().to_string());
-                let message = "the state of the last run cannot be read".to_owned();
-                problems.error(
-                    "live-state",
-                    place,
-                    message,
-                    "it is of another version of this program: remove it",
-                );
-                return None;
-            }
+        let Ok(Some(last)) = last_state(&folder).map(|found| match found {
+            Some(value) => read(value).map(|document| document.last),
+            None => Some(None),
+        }) else {
+            let message = "the state of the last run cannot be read".to_owned();
+            let hint = "it was cut, or is of another version of this program: remove it";
+            problems.error("live-state", place(), message, hint);
+            return None;
         };
-        let mut document = LiveStatusDocument::of(&plan.name, is_running(&folder), last);
+        let now_s = crate::clock::date_s();
+        let age_s = last.as_ref().map(|last| now_s.saturating_sub(last.date_s));
+        let running = is_running(&folder);
+        if let Some(age_s) = age_s.filter(|age_s| running && *age_s > FRESH_S) {
+            let message =
+                format!("the run has not said anything for {age_s} s: what is shown is of then");
+            let hint = "it stands still, or its disk takes nothing: look at the machine and at the process";
+            problems.warn("live-state", place(), message, hint);
+        }
+        if last.as_ref().is_some_and(|last| last.plan_hash != plan.hash) {
+            let message = "the state is of a run with another plan or machine file, or they were edited since";
+            let hint = "what is shown is of that run; an edited file has no effect on it";
+            problems.warn("live-state", place(), message.to_owned(), hint);
+        }
+        let mut document = LiveStatusDocument::of(&plan.name, running, last);
         document.events = last_events(&folder, MOST_EVENTS).iter().map(shown_event).collect();
-        document.history = self.hours.map(|hours| history(&folder, &plan, hours));
-        Some(LiveStatusAnswer(document))
+        document.history = self.hours.map(|hours| history(&folder, &plan, (hours, now_s)));
+        Some(LiveStatusAnswer { document, age_s })
     }
 }
 
+/// A run writes its state each second; one that is older than this stands still, s.
+const FRESH_S: u64 = 5;
+
 impl Answer for LiveStatusAnswer {
     fn document(&self, problems: &Diagnostics) -> Value {
-        complete(document(&self.0), problems)
+        complete(document(&self.document), problems)
     }
 
     fn report(&self) -> Report<'_> {
-        let report =
-            Report::new(&self.0.name).line(if self.0.running { "running" } else { "not running" });
-        let Some(last) = &self.0.last else { return report.line("it has not run here") };
+        let LiveStatusDocument { name, running, last, history, events, .. } = &self.document;
+        let report = Report::new(name).line(if *running { "running" } else { "not running" });
+        let Some(last) = last else { return report.line("it has not run here") };
+        let report = self
+            .age_s
+            .into_iter()
+            .fold(report, |report, age_s| report.line(format!("its state of {age_s} s ago:")));
         let report = state_report(report, last);
-        let report = match &self.0.history {
+        let report = match history {
             Some(history) => report.section(history_section(history)),
             None => report,
         };
-        match self.0.events.is_empty() {
+        match events.is_empty() {
             true => report,
-            false => report.section(events_section(&self.0.events)),
+            false => report.section(events_section(events)),
         }
     }
 }
@@ -363,8 +382,15 @@ fn history_section(history: &LiveHistory) -> Section<'_> {
         [axis.axis.clone(), a, b, c, d, unit.to_owned()]
     });
     let headings = ["axis", "largest before", "after", "rms before", "after", ""];
-    Section::new(format!("The last {} h: off by the model", fixed(history.hours, 1)))
-        .table(Table::new(headings).rows(rows))
+    let title = match history.hours < 1.0 {
+        true => format!("The last {} min: off by the model", fixed(60.0 * history.hours, 1)),
+        false => format!("The last {} h: off by the model", fixed(history.hours, 1)),
+    };
+    let table = Table::new(headings).rows(rows);
+    Section::new(title).table(match history.date_s.is_empty() {
+        true => table.note("Nothing was recorded in that time."),
+        false => table,
+    })
 }
 
 fn events_section(events: &[LiveEventEntry]) -> Section<'_> {

@@ -2,16 +2,19 @@
 
 mod datum;
 mod disk;
+mod foreign;
 mod heat;
 mod history;
 mod kept;
 mod latest;
 mod lines;
 mod memory;
+mod owned;
 mod part;
 
 pub use datum::{KeptDatums, ask_datum, kept_datums};
 pub use disk::{DiskStore, StoreFault, ask_stop, is_running, last_events, last_state, own_folder};
+pub use foreign::Foreign;
 pub use heat::{KeptHeat, kept_heat};
 pub use history::history_lines;
 pub use memory::{MemoryStore, Noted};

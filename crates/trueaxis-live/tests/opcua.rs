@@ -559,7 +559,7 @@ fn law_what_is_shown_of_a_line_is_that_of_the_place() {
         peaks.add(plan, cycle, correction);
         let kept = line(&state, &mut peaks);
         let kept: Vec<f64> =
-            kept.split(',').skip(3).map(|v| v.parse().expect("a number")).collect();
+            kept.split(',').skip(4).map(|v| v.parse().expect("a number")).collect();
         part.add(plan, cycle, (correction, false));
         let row = part.end().expect("a row");
         // Seven columns, then the positions of X, Y and Z.

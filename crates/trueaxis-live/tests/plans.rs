@@ -3,6 +3,8 @@
 mod rig;
 
 use rig::plan_with;
+use trueaxis::files::disk;
+use trueaxis_live::commission::{Commission, commission, evidence_line};
 use trueaxis_live::control::Identity;
 use trueaxis_live::start::doubt;
 
@@ -51,6 +53,21 @@ fn without_limits_there_is_no_start() {
     refused("[axis.X]", "[axis.Q]", "unknown-axis");
 }
 
+/// An axis without a usable increment is refused: left out without a word, the offset of the next axis went to its place.
+#[test]
+fn an_axis_is_never_left_out_without_a_word() {
+    for new in ["0 um", "-1 um", "-0 um"] {
+        let increment = format!("increment = \"{new}\"");
+        assert_eq!(codes(&[("increment = \"1 um\"", &increment)]), ["not-positive"; 2], "{new}");
+        let first = format!("[axis.X]\nincrement = \"{new}\"");
+        assert_eq!(codes(&[("[axis.X]\nincrement = \"1 um\"", &first)]), ["not-positive"]);
+    }
+    for lag in ["0 um", "-2 um"] {
+        let late = format!("dead_band = \"1 um\"\nlag = \"{lag}\"");
+        assert_eq!(codes(&[("dead_band = \"1 um\"", &late)]), ["not-positive"; 2], "{lag}");
+    }
+}
+
 #[test]
 fn sensors_fit_the_machine_file() {
     let column = ("speed = 10 }", "speed = 10, column = \"scale_x\" }");
@@ -94,6 +111,7 @@ fn controls_are_whole() {
     refused("ask_hold = \"R1042.0\"", "ask_hold = \"R1042.8\"", "bad-pmc-address");
     refused("lever = \"pmc\"", "lever = \"crowbar\"", "unknown-word");
     refused("period = \"50 ms\"", "period = \"0 s\"", "not-positive");
+    refused("after_hold = \"stay\"", "after_hold = \"stay\"\nmodes = []", "bad-list");
 }
 
 /// A real control needs its identity and the evidence of commissioning of each axis.
@@ -127,6 +145,33 @@ fn a_real_control_is_bound_and_commissioned() {
         assert!(found.iter().all(|c| c == "live-commissioning") && found.len() == 2, "{found:?}");
     }
     assert_eq!(real(bound, &format!("sign = -1\n{}", evidence("-10 um"))), Vec::<String>::new());
+}
+
+/// The line of a commissioning is one of TOML, whatever the evidence is.
+#[test]
+fn the_line_of_a_commissioning_can_be_read() {
+    let plan = plan_with(&[]).unwrap();
+    let evidence = "N.N., \"dial\" C:\\log, 2026-11-26\tX";
+    let line = evidence_line(&plan, "X", (0.010, 0.0098), evidence);
+    let with = plan_with(&[("[axis.X]\n", &format!("[axis.X]\n{line}\n"))]).unwrap();
+    let found = with.axes[0].commissioned.clone().expect("read");
+    assert_eq!(found.evidence, evidence);
+    assert!((found.wrote - 0.010).abs() < 1e-12 && (found.measured - 0.0098).abs() < 1e-12);
+}
+
+/// The control takes whole increments: 1.5 µm would be written as 2, and the indicator be compared with 1.5.
+#[test]
+fn an_axis_is_commissioned_by_whole_increments() {
+    let plan = rig::root().join("examples/08_live/gantry-mock.toml");
+    let tried = |by: f64| {
+        let asked = Commission { plan: plan.clone(), axis: "X".to_owned(), by };
+        let done = commission(&asked, &disk(), &|| true, (&|_| {}, &|| None));
+        done.err().map_or_else(Vec::new, |e| e.iter().map(|d| d.code.to_owned()).collect())
+    };
+    for by in [0.0015, 0.0014, -0.0105, 0.0004] {
+        assert_eq!(tried(by), ["live-limit"], "{by}");
+    }
+    assert_eq!(tried(0.003), Vec::<String>::new());
 }
 
 /// What is published of the calls is not of all series: a run says so where it is not.

@@ -1,11 +1,12 @@
 //! What the loss of a sensor costs on the day of a forecast.
 //!
 //! ```text
-//!     it stands in for another: left(t, q) = e(t, q) + offset of the readings with the other one's value
+//!     it stands in for another: left(t, q) = e(t, q) + offset of the sample before, with the other one's value
 //!     else the run holds:       left(t + T, q) = e(t + T, q) + offset(t, q),  T up to 10 min, 1 h, the rest of the day
 //! ```
 
-use super::{Column, Errors, Heat, Offsets, column, follow, largest, row, shown};
+use super::found::{largest, shown};
+use super::{Column, Errors, Offsets, Rows, column, follow};
 use crate::file::{Plan, SensorPlan};
 use crate::model::Model;
 use serde::Serialize;
@@ -33,16 +34,18 @@ pub struct ExpectedLoss {
     pub rest_of_day: Vec<f64>,
 }
 
-/// The rows of a day that were evaluated.
+/// The rows of a day.
 pub(super) struct Day<'a> {
     pub plan: &'a Plan,
     pub model: &'a Model,
     pub log: &'a TemperatureLog,
     pub places: &'a [Vec<f64>],
-    /// The place of each row in the log, and its errors.
-    pub rows: Vec<(usize, Errors)>,
-    /// What stood in the control at those that are shown, by their places in `rows`.
+    /// The errors of each row.
+    pub errors: Vec<Errors>,
+    /// What stood in the control at those that are shown, with their places.
     pub held: Vec<(usize, Offsets)>,
+    /// The largest that remains of each axis while no sensor is lost, in its unit.
+    pub after: Vec<f64>,
 }
 
 /// The loss of every sensor, or of one: `hold` gives what remains after three times where nothing stands in, `stands_in` what
@@ -83,36 +86,40 @@ impl Day<'_> {
     /// The offset stays as it is: largest errors up to each of three times.
     fn hold(&self) -> [Vec<f64>; 3] {
         let times = self.log.times_s();
-        SPANS_S.map(|most_s| {
-            let axis = |live: usize| {
-                let mut worst = 0.0f64;
-                for (i, held) in &self.held {
-                    let lost_s = times[self.rows[*i].0];
-                    for (later, errors) in &self.rows[*i..] {
-                        if times[*later] - lost_s > most_s {
-                            break;
+        // Whichever row it is lost at, that one is among them.
+        let mut worst = SPANS_S.map(|_| self.after.clone());
+        for (i, held) in &self.held {
+            for (later, errors) in self.errors.iter().enumerate().skip(*i) {
+                let since_s = times[later] - times[*i];
+                for (live, held) in held.iter().enumerate() {
+                    let left = errors[live].iter().zip(held).map(|(e, h)| e + h);
+                    let left = largest(left) * shown(self.plan, live);
+                    for (worst, most_s) in worst.iter_mut().zip(SPANS_S) {
+                        if since_s <= most_s {
+                            worst[live] = worst[live].max(left);
                         }
-                        let left = errors[live].iter().zip(&held[live]).map(|(e, h)| e + h);
-                        worst = worst.max(largest(left));
                     }
                 }
-                worst * shown(self.plan, live)
-            };
-            (0..self.plan.axes.len()).map(axis).collect()
-        })
+            }
+        }
+        worst
     }
 
     /// Another sensor takes its place.
     fn stands_in(&self, swapped: Column<'_>) -> Result<Vec<f64>, String> {
         let mut worst = vec![0.0f64; self.plan.axes.len()];
-        let mut heat = Heat::of(self.plan, self.log, swapped);
-        for (at, now) in &self.rows {
-            let read = row(self.plan, self.model, (&mut heat, *at), self.places)?;
-            let held = follow(self.plan, (&read.errors, self.places), None);
+        let mut rows = Rows::of(self.plan, self.model, (self.log, swapped), self.places)?;
+        let (mut sampled, mut before): (Option<Errors>, Option<Offsets>) = (None, None);
+        for (at, now) in self.errors.iter().enumerate() {
+            rows.go_to(at)?;
+            let read = rows.row()?.errors.clone();
+            let last = sampled.as_ref().unwrap_or(&read);
+            let held = follow(self.plan, (last, self.places), before.as_ref());
             for (live, worst) in worst.iter_mut().enumerate() {
                 let left = now[live].iter().zip(&held[live]).map(|(e, h)| e + h);
                 *worst = worst.max(largest(left) * shown(self.plan, live));
             }
+            (sampled, before) = (Some(read), Some(held));
         }
         Ok(worst)
     }

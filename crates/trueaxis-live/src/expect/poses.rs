@@ -4,12 +4,15 @@
 //!     by(t, q)   = q_c − q of the sample before, in whole increments, follows with a dead band      crate::pose
 //!     left(t, q) = actual pose at q + by  −  nominal pose at q
 //! ```
+//!
+//! What was off of the tip where the zero of the part was touched is in the zero: `by` does not move the tip by it, and it is not
+//! left.
 
 use super::losses::{ExpectedLoss, SPANS_S, losses};
-use super::{Column, Heat, column, followed, moments};
+use super::{Column, Heat, column, columns, followed, moments, off_at_touch};
 use crate::file::{Plan, SensorPlan};
 use crate::model::Part;
-use crate::pose::{PoseCorrection, turns};
+use crate::pose::{Frame, PoseCorrection, World, turns};
 use serde::Serialize;
 use trueaxis::geometry::Vec3;
 use trueaxis::machine::Machine;
@@ -87,6 +90,9 @@ pub(super) struct Day<'a> {
     tables: Vec<Command>,
     /// The places of the rows in the log, and which are shown.
     at: Vec<(usize, bool)>,
+    /// What was off of the tip where the zero of the part was touched: X, Y and Z of the control, and in the workpiece. Unit: mm.
+    at_touch: [Vec3; 2],
+    world: World,
 }
 
 /// Poses over the travel, a hundredth of it away from its ends: there an offset has no room.
@@ -110,7 +116,7 @@ pub(super) fn expect(
     let machine = &plan.machine;
     let poses = inside(machine);
     let turns = turns(machine, |i| plan.axes.iter().any(|axis| axis.axis == i));
-    let cold = PoseCorrection::of(machine, turns)?;
+    let (cold, world) = (PoseCorrection::of(machine, turns)?, World::of(machine)?);
     let table = |pose: &Command| match plan.part {
         Part::Whole => Ok(Command::default()),
         Part::Thermal => cold.corrected(pose).map(|to| std::array::from_fn(|i| to[i] - pose[i])),
@@ -121,7 +127,9 @@ pub(super) fn expect(
         tables: poses.iter().map(table).collect::<Result<_, String>>()?,
         poses,
         turns,
-        at: moments(log.times_s(), MOST_ROWS),
+        at: moments(log, &columns(plan), MOST_ROWS).into_iter().collect(),
+        at_touch: tip_at_touch(plan, &world)?,
+        world,
     };
     let own = |sensor: &SensorPlan| column(sensor).to_owned();
     let rows = day.rows(&own)?;
@@ -143,7 +151,8 @@ impl Day<'_> {
             let hot = PoseCorrection::of(&warm, self.turns)?;
             let wanted = self.poses.iter().zip(&self.tables).map(|(pose, table)| {
                 let to = hot.corrected(pose)?;
-                Ok(std::array::from_fn(|i| to[i] - pose[i] - table[i]))
+                let kept = self.world.moving_tip(Frame::Machine, pose, &self.at_touch[0]);
+                Ok(std::array::from_fn(|i| to[i] - pose[i] - table[i] + kept[i]))
             });
             let wanted = wanted.collect::<Result<_, String>>()?;
             Ok(Row { at_s: self.log.times_s()[*at], warm, wanted })
@@ -183,6 +192,7 @@ impl Day<'_> {
     /// How far the actual tool at a pose with its offset is from the nominal one without.
     fn off(&self, warm: &Machine, pose: &Command, by: &Command) -> Result<Off, String> {
         let (tip_mm, axis) = left(warm, pose, by)?;
+        let tip_mm = tip_mm - self.at_touch[1];
         Ok(Off { tip_mm: tip_mm.norm(), axis_rad: axis.norm() })
     }
 
@@ -264,10 +274,10 @@ impl Day<'_> {
     /// Another sensor takes its place.
     fn stands_in(&self, rows: &[Row], swapped: Column<'_>) -> Result<Vec<f64>, String> {
         let mut worst = Off::default();
-        for (row, read) in rows.iter().zip(self.rows(swapped)?) {
+        let read = self.rows(swapped)?;
+        for (i, held) in self.held(&read) {
             for (k, pose) in self.poses.iter().enumerate() {
-                let by = self.with(k, &self.counted(&read.wanted[k], None));
-                worst = worst.largest(self.off(&row.warm, pose, &by)?);
+                worst = worst.largest(self.off(&rows[i].warm, pose, &self.with(k, &held[k]))?);
             }
         }
         Ok(shown(worst))
@@ -276,6 +286,17 @@ impl Day<'_> {
 
 fn shown(off: Off) -> Vec<f64> {
     vec![off.tip_mm * 1e3, off.axis_rad * 1e6]
+}
+
+/// What was off of the tip at the touch that the plan knows of, as the control names it and in the workpiece. Unit: mm.
+fn tip_at_touch(plan: &Plan, world: &World) -> Result<[Vec3; 2], String> {
+    let mut xyz = Vec3::zeros();
+    for (own, off) in plan.axes.iter().zip(off_at_touch(plan)?) {
+        if let Some(i) = world.linear().iter().position(|axis| *axis == own.axis) {
+            xyz[i] = off;
+        }
+    }
+    Ok([xyz, world.vector(&xyz)])
 }
 
 /// The actual tool at a pose with an offset of its axes, less the nominal one without: tip (mm) and tool axis.

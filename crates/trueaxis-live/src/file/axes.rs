@@ -3,7 +3,7 @@
 use crate::governor::{AxisLimits, increments_of};
 use crate::model::LiveAxis;
 use std::ops::RangeInclusive;
-use trueaxis::input::{Dimension, Section};
+use trueaxis::input::{Dimension, Item, Section};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::AxisKind;
 use trueaxis::machine::describe::axis_index;
@@ -109,9 +109,11 @@ fn read_axis(section: &Section<'_>, machine: &Machine, axis: usize) -> Option<Ax
     };
     let name = machine.axes()[axis].name.to_string();
     let hint = if is_linear { "increment = \"1 um\"" } else { "increment = \"0.0001 deg\"" };
-    let increment = section.require("increment", hint).and_then(|item| item.unjudged(length));
+    let increment = section.require("increment", hint);
+    let increment = increment.and_then(|item| above_zero(&item, "increment", (length, hint)));
     let sign = read_sign(section);
-    let lag = section.get("lag").and_then(|item| item.unjudged(length));
+    let lag_hint = if is_linear { "lag = \"2 um\"" } else { "lag = \"0.0002 deg\"" };
+    let lag = section.get("lag").and_then(|item| above_zero(&item, "lag", (length, lag_hint)));
     let commissioned = section.section("commissioned", |s| read_commissioned(s, length)).flatten();
     let mut values = Vec::new();
     for (key, linear, rotary) in LIMITS {
@@ -121,14 +123,11 @@ fn read_axis(section: &Section<'_>, machine: &Machine, axis: usize) -> Option<Ax
             section.error("live-no-limit", message, if is_linear { linear } else { rotary });
             continue;
         };
-        let Some(value) = item.unjudged(dimension) else { continue };
-        if value <= 0.0 {
-            item.error("not-positive", format!("`{key}` is above zero"), hint);
-            continue;
-        }
-        values.push(value);
+        let hint = if is_linear { linear } else { rotary };
+        values.extend(above_zero(&item, key, (dimension, hint)));
     }
-    let increment = increment.filter(|increment| *increment > 0.0)?;
+    // Its fault is named: an axis that is left out without a word would move the offsets of the others to other places.
+    let increment = increment?;
     let [limit, slew, step, jump, dead_band] = values[..] else { return None };
     let whole = |key: &str, value: f64| {
         let found = increments_of((value / increment + 1e-9).floor()).filter(|n| *n >= 1);
@@ -157,6 +156,16 @@ fn read_axis(section: &Section<'_>, machine: &Machine, axis: usize) -> Option<Ax
         check_ratio(section, &name, evidence, sign);
     }
     Some(AxisPlan { axis, name, increment, sign, limits, commissioned, lag, line: None })
+}
+
+/// A value above zero.
+fn above_zero(item: &Item<'_>, key: &str, (dimension, hint): (Dimension, &str)) -> Option<f64> {
+    let value = item.unjudged(dimension)?;
+    if value <= 0.0 {
+        item.error("not-positive", format!("`{key}` is above zero"), hint);
+        return None;
+    }
+    Some(value)
 }
 
 fn read_sign(section: &Section<'_>) -> f64 {

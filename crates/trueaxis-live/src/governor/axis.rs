@@ -49,12 +49,23 @@ pub(super) struct AxisMemory {
     allowance: f64,
     /// The target is beyond the limit.
     pub is_limited: bool,
+    /// Slew or step did not let it come to where it shall go.
+    pub is_behind: bool,
 }
 
 impl AxisMemory {
     pub fn new(limits: &AxisLimits) -> Self {
         let limits = *limits;
-        Self { limits, base: 0, own: 0, before: 0, target: None, allowance: 0.0, is_limited: false }
+        Self {
+            limits,
+            base: 0,
+            own: 0,
+            before: 0,
+            target: None,
+            allowance: 0.0,
+            is_limited: false,
+            is_behind: false,
+        }
     }
 
     /// The whole offset.
@@ -124,8 +135,14 @@ impl AxisMemory {
         increments_of(target).filter(|_| away)
     }
 
-    /// Goes there as far as step and slew allow; `true` if it moved.
-    pub fn go(&mut self, to: i32) -> bool {
+    /// Goes there as far as step and slew allow; `true` if it moved. Within the dead band there is nowhere to go.
+    pub fn go(&mut self, to: Option<i32>) -> bool {
+        let moved = to.is_some_and(|to| self.go_to(to));
+        self.is_behind = to.is_some_and(|to| self.own != to);
+        moved
+    }
+
+    fn go_to(&mut self, to: i32) -> bool {
         let Some(most) = increments_of(self.allowance.floor()).filter(|most| *most > 0) else {
             return false;
         };

@@ -22,6 +22,10 @@ pub enum State {
     Latched,
 }
 
+/// All of them.
+pub const STATES: [State; 6] =
+    [State::Off, State::Arm, State::Run, State::Hold, State::RampDown, State::Latched];
+
 impl fmt::Display for State {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -100,6 +104,8 @@ pub enum Reason {
     Foreign,
     /// At the start the control holds another value than the journal.
     Difference,
+    /// At the start the control holds an offset, and what of it is this program's is not known: the journal is lost.
+    Lost,
 }
 
 impl Reason {
@@ -142,6 +148,10 @@ impl fmt::Display for Reason {
             Self::Journal => write!(f, "the journal cannot be written"),
             Self::Foreign => write!(f, "the control holds a value of another source"),
             Self::Difference => write!(f, "the control holds another value than the journal"),
+            Self::Lost => write!(
+                f,
+                "the journal does not say what of the offset in the control is this program's"
+            ),
         }
     }
 }

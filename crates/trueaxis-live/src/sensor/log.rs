@@ -18,7 +18,7 @@ pub struct LogSensor {
 }
 
 impl LogSensor {
-    /// From a time of the log on; the row before is known at once.
+    /// From a time of the log on; the row before is known at once, and is as old as it is.
     pub fn new(log: Arc<TemperatureLog>, column: &str, sensor: usize, start_s: f64) -> Self {
         let next = log.times_s().partition_point(|t| *t <= start_s).saturating_sub(1);
         Self { log, column: column.to_owned(), sensor, start_s, speed: 1.0, next }
@@ -43,7 +43,7 @@ impl Sensor for LogSensor {
             if *time > log_s {
                 break;
             }
-            let taken_s = ((time - self.start_s) / self.speed).max(0.0);
+            let taken_s = (time - self.start_s) / self.speed;
             let sent = Sent::Number(*celsius);
             samples.push(Sample { sensor: self.sensor, sent, taken_s: Some(taken_s) });
             self.next += 1;

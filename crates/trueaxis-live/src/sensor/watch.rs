@@ -5,7 +5,7 @@ use super::Sample;
 /// A clock of a source may be ahead by so much, s.
 const AHEAD_S: f64 = 1.0;
 /// A step of one digit of a coarse reading is no rate, K.
-const DIGIT_K: f64 = 0.1;
+pub(crate) const DIGIT_K: f64 = 0.1;
 /// Another sensor must have moved by so much before one that does not move is stuck, K.
 const MOVED_K: f64 = 0.5;
 
@@ -108,12 +108,15 @@ impl Watch {
     /// Takes a sample.
     pub fn take(&mut self, sample: &Sample, now_s: f64) {
         let Some(settings) = self.settings.get(sample.sensor) else { return };
-        let judged = judge(settings, self.known[sample.sensor].good, sample, now_s);
+        let good = self.known[sample.sensor].good;
+        // An older one that comes late changes nothing, whatever it says.
+        if good.zip(sample.taken_s).is_some_and(|((_, last_s), taken_s)| taken_s < last_s) {
+            return;
+        }
+        let judged = judge(settings, good, sample, now_s);
         let others: Vec<Option<f64>> = self.known.iter().map(|k| k.good.map(|g| g.0)).collect();
         let known = &mut self.known[sample.sensor];
         match judged {
-            // An older one that comes late changes nothing.
-            Ok((_, taken_s)) if known.good.is_some_and(|(_, last_s)| taken_s < last_s) => {}
             Ok((celsius, taken_s)) => {
                 let same = known.good.is_some_and(|(last, _)| last == celsius);
                 if !same || known.same.is_none() {

@@ -1,5 +1,6 @@
 //! `datum.json`: the zero of the part over restarts; and the file by which another process asks for one.
 
+use super::foreign::foreign_file;
 use super::kept::kept;
 use crate::datum::DatumOrder;
 use crate::setups::SetupDatum;
@@ -61,7 +62,10 @@ pub fn ask_datum(folder: &Path, clear: bool, is_running: bool) -> Result<(), Str
             let path = folder.join(ASKED);
             trueaxis::files::write(&path, text.as_bytes()).map_err(|error| error.to_string())
         }
-        false => keep(folder, None),
+        false => match foreign_file(folder) {
+            Some(file) => Err(file.to_string()),
+            None => keep(folder, None),
+        },
     }
 }
 

@@ -1,34 +1,33 @@
 //! A store in a folder of its own: `lock`, `owned`, `journal.jsonl`, `state.json`, `metrics.prom`, `history.csv`,
 //! `datum.json`, `heat.json`, `parts/`, `part`, `stop`.
 //!
-//! `owned` has two lines of fixed length that are written in turn, each with a number and a checksum: a run that is killed
-//! while it writes one leaves the other. The journal only grows by events, never by cycles.
+//! The journal only grows by events, never by cycles.
 
 use super::datum::{KeptDatums, asked, keep};
+use super::foreign::{Foreign, foreign_file};
 use super::heat::{KEPT, KeptHeat};
 use super::history::history_file;
+use super::kept::kept;
 use super::latest::Latest;
 use super::lines::Lines;
+use super::owned::{OWNED, OwnedFile, checksum, left_elsewhere};
 use super::part::{part_file, part_now};
 use super::{Event, Owner, Store};
 use crate::clock::date_s;
 use crate::control::Identity;
 use crate::cycle::CycleInput;
 use crate::datum::DatumOrder;
-use crate::governor::{Order, Owned};
+use crate::governor::{Earlier, Order, Owned, STATES, State};
 use crate::memory::HeatOfRun;
 use crate::setups::SetupDatum;
-use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+const STATE: &str = "state.json";
 /// Its presence asks a run for its end.
 const STOP: &str = "stop";
-/// Of one line of `owned`.
-const LINE: usize = 2048;
-
 /// Why a store cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreFault {
@@ -38,6 +37,9 @@ pub enum StoreFault {
     /// It is of another machine, control or set of axes.
     #[error("it is of {0}")]
     Other(String),
+    /// No run has made it, and a file in it has a name that runs write over or remove.
+    #[error("{0}")]
+    Foreign(Foreign),
     /// The disk.
     #[error("it cannot be opened: {0}")]
     Disk(#[from] io::Error),
@@ -48,8 +50,7 @@ pub enum StoreFault {
 pub struct DiskStore {
     folder: PathBuf,
     owner: Owner,
-    owned: File,
-    number: u64,
+    owned: OwnedFile,
     journal: File,
     record: Option<BufWriter<File>>,
     state: Latest,
@@ -63,25 +64,30 @@ pub struct DiskStore {
     _lock: File,
 }
 
-/// One line of `owned`.
-#[derive(Debug, Serialize, Deserialize)]
-struct Line {
-    number: u64,
-    owner: Owner,
-    owned: Owned,
-}
-
 /// The folder of a plan where none is stated: that of the user for such files, by the name of the machine and the place of
 /// the plan; none where the system names no such folder.
 pub fn own_folder(plan: &Path, machine: &str) -> Option<PathBuf> {
-    let variable = |name| std::env::var_os(name).filter(|v| !v.is_empty()).map(PathBuf::from);
-    let state =
-        variable("XDG_STATE_HOME").or_else(|| Some(variable("HOME")?.join(".local/state")))?;
     let whole = fs::canonicalize(plan).or_else(|_| std::path::absolute(plan)).ok()?;
     let sum = checksum(whole.as_os_str().as_encoded_bytes());
     let safe = |c: char| if c.is_ascii_alphanumeric() { c } else { '-' };
     let name: String = machine.chars().map(safe).take(40).collect();
-    Some(state.join("trueaxis/live").join(format!("{name}-{sum:08x}")))
+    Some(own_root()?.join(format!("{name}-{sum:08x}")))
+}
+
+/// Where the folders of all plans are that state none.
+fn own_root() -> Option<PathBuf> {
+    let variable = |name| std::env::var_os(name).filter(|v| !v.is_empty()).map(PathBuf::from);
+    let state =
+        variable("XDG_STATE_HOME").or_else(|| Some(variable("HOME")?.join(".local/state")))?;
+    Some(state.join("trueaxis/live"))
+}
+
+/// Whether the last run that has written this journal did not come to its end.
+fn was_running(folder: &Path) -> bool {
+    let states = STATES.map(|state| state.to_string());
+    let events = last_events(folder, usize::MAX);
+    let last = events.iter().rev().find(|event| states.contains(&event.event));
+    last.is_some_and(|event| event.event != State::Off.to_string())
 }
 
 /// Whether a run holds this folder.
@@ -99,9 +105,11 @@ pub fn ask_stop(folder: &Path) -> io::Result<()> {
 }
 
 /// The state that the last run has left.
-pub fn last_state(folder: &Path) -> Option<Value> {
-    let text = fs::read_to_string(folder.join("state.json")).ok()?;
-    serde_json::from_str(&text).ok()
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn last_state(folder: &Path) -> Result<Option<Value>, String> {
+    kept(folder, STATE)
 }
 
 /// Bytes at the end of the journal that its last events are looked for in.
@@ -122,13 +130,6 @@ pub fn last_events(folder: &Path, most: usize) -> Vec<Event> {
     events[events.len().saturating_sub(most)..].to_vec()
 }
 
-/// FNV-1a with 32 bits.
-fn checksum(bytes: &[u8]) -> u32 {
-    bytes
-        .iter()
-        .fold(0x811c_9dc5u32, |sum, byte| (sum ^ u32::from(*byte)).wrapping_mul(0x0100_0193))
-}
-
 #[cfg(unix)]
 fn make(folder: &Path) -> io::Result<()> {
     use std::os::unix::fs::DirBuilderExt;
@@ -142,12 +143,27 @@ fn make(folder: &Path) -> io::Result<()> {
 }
 
 impl DiskStore {
-    /// Opens the folder for one run, and gives what an earlier one owns.
+    /// Opens the folder for one run, and gives what an earlier one has left in the control.
     ///
     /// # Errors
     /// [`StoreFault`].
-    pub fn open(folder: &Path, owner: &Owner) -> Result<(Self, Option<Owned>), StoreFault> {
+    pub fn open(folder: &Path, owner: &Owner) -> Result<(Self, Earlier), StoreFault> {
+        Self::open_beside(own_root().as_deref(), folder, owner)
+    }
+
+    /// The same; where the folders of other plans are, it looks for what a run of one of them has left in this control.
+    ///
+    /// # Errors
+    /// [`StoreFault`].
+    pub fn open_beside(
+        others: Option<&Path>,
+        folder: &Path,
+        owner: &Owner,
+    ) -> Result<(Self, Earlier), StoreFault> {
         make(folder)?;
+        if let Some(name) = foreign_file(folder) {
+            return Err(StoreFault::Foreign(name));
+        }
         let open = |name: &str| {
             OpenOptions::new()
                 .read(true)
@@ -168,27 +184,30 @@ impl DiskStore {
             Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error.into()),
             _ => {}
         }
-        let mut owned = open("owned")?;
-        let last = lines(&mut owned)?.into_iter().max_by_key(|line| line.number);
-        if let Some(line) = last.as_ref().filter(|line| line.owner != *owner) {
-            let Owner { machine, control, axes } = &line.owner;
+        let (owned, left) = OwnedFile::open(open(OWNED)?)?;
+        if let Some((other, _)) = left.as_ref().filter(|(other, _)| other != owner) {
+            let Owner { machine, control, axes } = other;
             let Identity { kind, series, version, .. } = control;
             let axes = axes.join(" ");
             return Err(StoreFault::Other(format!(
                 "{machine}, control {kind} {series} {version}, axes {axes}"
             )));
         }
+        let earlier = match left {
+            Some((_, left)) => Earlier::Owned(left),
+            None if owned.is_damaged() || was_running(folder) => Earlier::Lost,
+            // A plan that was renamed or moved has another folder.
+            None => others.map_or(Earlier::Nothing, |root| left_elsewhere(root, folder, owner)),
+        };
         let journal =
             OpenOptions::new().append(true).create(true).open(folder.join("journal.jsonl"))?;
-        let number = last.as_ref().map_or(0, |line| line.number);
         let store = Self {
             folder: folder.to_owned(),
             owner: owner.clone(),
             owned,
-            number,
             journal,
             record: None,
-            state: Latest::of(folder.join("state.json")),
+            state: Latest::of(folder.join(STATE)),
             metrics: Latest::of(folder.join("metrics.prom")),
             heat: Latest::of(folder.join(KEPT)),
             history: None,
@@ -196,7 +215,7 @@ impl DiskStore {
             plan_hash: String::new(),
             _lock: lock,
         };
-        Ok((store, last.map(|line| line.owned)))
+        Ok((store, earlier))
     }
 
     /// The same for a plan: a zero of the part belongs to it.
@@ -221,34 +240,9 @@ impl DiskStore {
     }
 }
 
-/// The lines that are whole.
-fn lines(file: &mut File) -> io::Result<Vec<Line>> {
-    let mut text = Vec::new();
-    file.seek(SeekFrom::Start(0))?;
-    file.take(2 * LINE as u64).read_to_end(&mut text)?;
-    let whole = |bytes: &[u8]| {
-        let text = std::str::from_utf8(bytes).ok()?;
-        let (sum, rest) = text.trim_end().split_once(' ')?;
-        let sound = u32::from_str_radix(sum, 16).is_ok_and(|sum| sum == checksum(rest.as_bytes()));
-        serde_json::from_str(rest).ok().filter(|_| sound)
-    };
-    Ok(text.chunks(LINE).filter_map(whole).collect())
-}
-
 impl Store for DiskStore {
     fn own(&mut self, owned: &Owned) -> Result<(), String> {
-        self.number += 1;
-        let line = Line { number: self.number, owner: self.owner.clone(), owned: owned.clone() };
-        let text = serde_json::to_string(&line).map_err(|e| e.to_string())?;
-        let mut bytes = format!("{:08x} {text}", checksum(text.as_bytes())).into_bytes();
-        if bytes.len() >= LINE {
-            return Err("too many axes for the journal".to_owned());
-        }
-        bytes.resize(LINE - 1, b' ');
-        bytes.push(b'\n');
-        let place = (self.number % 2) * LINE as u64;
-        let placed = self.owned.seek(SeekFrom::Start(place));
-        placed.and_then(|_| self.owned.write_all(&bytes)).map_err(|e| e.to_string())
+        self.owned.add(&self.owner, owned)
     }
 
     fn event(&mut self, event: &Event) -> Result<(), String> {

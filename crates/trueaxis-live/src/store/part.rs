@@ -2,7 +2,7 @@
 
 use super::lines::Lines;
 use crate::file::Plan;
-use crate::part::part_heading;
+use crate::part::{headings_of, part_heading};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -98,8 +98,7 @@ pub fn parts(folder: &Path) -> Vec<String> {
 pub(super) fn part_file(folder: &Path, name: &str, heading: &str) -> Result<Lines, String> {
     let path = part_path(folder, name);
     let text = fs::read_to_string(&path).map_err(|error| error.to_string())?;
-    let columns = |text: &str| text.lines().find(|l| !l.starts_with('#')).map(str::to_owned);
-    if columns(&text) != columns(heading) {
+    if headings_of(&text) != headings_of(heading) {
         return Err("it was begun for other axes or sensors".to_owned());
     }
     let opened = OpenOptions::new().append(true).open(&path);

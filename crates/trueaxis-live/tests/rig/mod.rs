@@ -13,7 +13,7 @@ use trueaxis::files::disk;
 use trueaxis_live::clock::{Clock, VirtualClock};
 use trueaxis_live::control::Identity;
 use trueaxis_live::file::{Plan, read_plan};
-use trueaxis_live::governor::{Owned, State};
+use trueaxis_live::governor::{Earlier, State};
 use trueaxis_live::mock::{FanucMock, MockWire};
 use trueaxis_live::run::{Cycle, Run, Wish};
 use trueaxis_live::sensor::{Sample, Sensor, Sent};
@@ -106,7 +106,7 @@ impl Rig {
     /// With the temperatures of Fig 9 and 10: 30.5, 31.2 and, for the workpiece, 30.5 °C.
     pub fn new(plan: Plan) -> Self {
         let mock = Rc::new(RefCell::new(mock_of(&plan).expect("a mock")));
-        Self::on(plan, mock, VirtualClock::default(), None)
+        Self::on(plan, mock, VirtualClock::default(), Earlier::Nothing)
     }
 
     /// On a mock that is there already, with what the journal knows.
@@ -114,7 +114,7 @@ impl Rig {
         plan: Plan,
         mock: Rc<RefCell<FanucMock>>,
         clock: VirtualClock,
-        owned: Option<Owned>,
+        earlier: impl Into<Earlier>,
     ) -> Self {
         let fanuc = plan.control.fanuc().expect("a FANUC control");
         let wire = MockWire::new(&mock, &clock, fanuc.timeout_s);
@@ -131,7 +131,7 @@ impl Rig {
             Box::new(TestSensor { sensor, from: Rc::clone(&sensors), next_s: 0.0 })
         });
         let (store, all) = (MemoryStore::default(), all.collect());
-        let run = Run::new(&plan, owned, Box::new(control), all, store.clone());
+        let run = Run::new(&plan, earlier, Box::new(control), all, store.clone());
         let wish = Wish { run: true, confirmed: false };
         Self {
             plan,

@@ -161,6 +161,7 @@ export const codes: Dictionary = {
   "live-line": "Achse nicht über Kennlinie korrigierbar",
   "live-no-forecast": "Vorhersage des Tagesverlaufs nicht möglich",
   "live-range": "Messwerte außerhalb des Bereichs eines Sensors",
+  "live-not-followed": "Vorhersage folgt, wo der Lauf hielte",
   "bad-duration": "Zeitangabe unzulässig",
   "array-shape": "Falsche Zeilen- oder Spaltenzahl",
   "array-type": "Feld enthält nicht nur Zahlen",

@@ -161,6 +161,7 @@ export const codes: Dictionary = {
   "live-line": "轴无法按直线特性修正",
   "live-no-forecast": "无法预测全天变化",
   "live-range": "读数超出传感器范围",
+  "live-not-followed": "预测跟随之处，实际运行会保持",
   "bad-duration": "时长格式无效",
   "array-shape": "数组行列数错误",
   "array-type": "数组含非数值元素",
