@@ -101,7 +101,8 @@ impl Question for CompensateTables {
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
         may_fill(&self.output, problems);
         let machine = self.machine.read(files, problems)?;
-        let machine = not_twice(&machine, self.machine.place(), problems);
+        // What is active is named; the tables leave it out, and know where it is held.
+        not_twice(&machine, self.machine.place(), problems);
         let order = self.order(&machine, problems);
         let only = self.machine_only;
         let (machine, price) = machine_or_part(machine, &self.machine, files, only, problems)?;
@@ -131,6 +132,7 @@ impl Question for CompensateTables {
         let output = self.output.clone();
         let written = compiled.files.iter().map(|f| output.join(&f.name).display().to_string());
         let written = written.collect();
+        let machine = machine.with_active_compensation();
         Some(TablesAnswer { machine, compiled, piece, part, output, written, price })
     }
 }
@@ -172,6 +174,12 @@ fn refuse(error: &TablesError, machine: Place, problems: &mut Diagnostics) {
         TablesError::TooManyTables { .. } => {
             ("too-many-tables", argument("--target"), "choose another target; csv takes any number")
         }
+        TablesError::Active { .. } => (
+            "active-overwritten",
+            machine,
+            "a table is loaded whole: take the error out of [compensation] active, so that the file holds it too; \
+             then load the file instead of what is in force",
+        ),
         TablesError::NotRecovered(_) => (
             "not-recovered",
             argument("--target"),

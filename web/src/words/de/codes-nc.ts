@@ -231,6 +231,7 @@ export const codes: Dictionary = {
   "too-many-nodes": "Zu viele Stützpunkte für die Steuerung",
   "bound-below-increment": "Zulässiger Verlust unter Steuerungsinkrement",
   "too-many-tables": "Zu viele Kompensationstabellen für die Steuerung",
+  "active-overwritten": "Datei würde eine aktive Kompensation ersetzen",
   "not-recovered": "Rücklesen stimmt nicht überein",
   "unknown-target": "Zielsteuerung für Tabellen unbekannt",
   "no-tables": "Tabellen des Zertifikats nicht erzeugbar",

@@ -231,6 +231,7 @@ export const codes: Dictionary = {
   "too-many-nodes": "补偿点数超过数控系统限制",
   "bound-below-increment": "允许损失小于系统最小增量",
   "too-many-tables": "补偿表数超过数控系统限制",
+  "active-overwritten": "文件会覆盖已生效的补偿",
   "not-recovered": "回读结果与写入不一致",
   "unknown-target": "未知的补偿表目标系统",
   "no-tables": "无法生成证书的补偿表",

@@ -5,6 +5,7 @@ use super::content::Content;
 use super::control::{Control, File, range};
 use super::emulation::Emulation;
 use super::grid::{GridFault, Gridded};
+use super::held::nothing_overwritten;
 use super::joints::Joints;
 use super::lever::Lever;
 use super::place::{PlaceFault, Placed};
@@ -19,11 +20,18 @@ use trueaxis_machine::axis::{Approach, AxisKind, Command, Travel};
 use trueaxis_machine::chain::CommandFault;
 use trueaxis_machine::errors::ErrorName;
 
-/// Compiles the tables of a control, reads them back and says what they leave.
+/// Compiles the tables of a control, reads them back and says what they leave. Errors that the machine file calls active
+/// are in force and stay so: they are not compensated again, and nothing is written in their place.
 ///
 /// # Errors
 /// [`TablesError`]; then there is no file.
 pub fn compile(machine: &Machine, order: &Order) -> Result<Compiled, TablesError> {
+    let compiled = compiled(&machine.with_active_compensation(), order)?;
+    nothing_overwritten(machine, order, &compiled)?;
+    Ok(compiled)
+}
+
+fn compiled(machine: &Machine, order: &Order) -> Result<Compiled, TablesError> {
     let with = Draft::of(machine, order)?;
     let control = order.target.control();
     let joints = with.compiled.joints.as_ref();
@@ -244,7 +252,8 @@ fn recovered(
     }
 }
 
-fn middle(machine: &Machine) -> Command {
+/// The middle of linear travels, rotary axes at 0.
+pub fn middle(machine: &Machine) -> Command {
     let mut reference = Command::default();
     for (q, axis) in reference.iter_mut().zip(machine.axes()) {
         *q = match (axis.kind, axis.travel) {

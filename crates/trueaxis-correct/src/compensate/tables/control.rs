@@ -109,6 +109,17 @@ pub trait Control {
     /// Nodes and increments of a table.
     fn rule(&self) -> Rule;
 
+    /// Whether a table takes the place of one that is held for other axes, because both are numbered from the first on.
+    /// `directed`: the held one is by direction.
+    fn shares_numbers(&self, _written: &Table, _held: (usize, usize), _directed: bool) -> bool {
+        false
+    }
+
+    /// Whether the errors of all links stand in one file.
+    fn has_one_file_of_links(&self) -> bool {
+        false
+    }
+
     /// The most tables, all together.
     fn most_tables(&self) -> usize {
         usize::MAX

@@ -67,6 +67,11 @@ impl Control for Fanuc {
         stepwise(&table.nodes, position, side)
     }
 
+    /// The numbers of pitch data begin with 0 in every file.
+    fn shares_numbers(&self, _written: &Table, _held: (usize, usize), _directed: bool) -> bool {
+        true
+    }
+
     fn grid(&self) -> Option<GridRule> {
         Some(GridRule {
             most_points: MOST_POINTS,

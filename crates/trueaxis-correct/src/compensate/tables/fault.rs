@@ -123,6 +123,16 @@ pub enum TablesError {
         /// What it takes.
         most: usize,
     },
+    /// The control has one place for it, and an active error is there.
+    #[error(
+        "{written} would go in the place of what the control holds for {error}, which is active"
+    )]
+    Active {
+        /// The active error.
+        error: ErrorName,
+        /// What would be written there.
+        written: String,
+    },
     /// What was written is not what is read.
     #[error("what was written could not be read back: {0}")]
     NotRecovered(String),

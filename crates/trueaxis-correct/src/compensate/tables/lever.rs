@@ -85,6 +85,11 @@ impl<'a> Lever<'a> {
         Ok(lever)
     }
 
+    /// The machine.
+    pub fn machine(&self) -> &Machine {
+        self.machine
+    }
+
     /// What an input axis at a position makes every axis add, mm or rad: the functions f_io of all
     /// outputs o.
     ///
