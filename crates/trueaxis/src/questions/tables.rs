@@ -12,6 +12,7 @@ use trueaxis_correct::compensate::tables::proof::{IndexLeft, part_left, piece_le
 use trueaxis_correct::compensate::tables::{Compiled, Order, TablesError, Target, compile};
 use trueaxis_input::{Diagnostics, Dimension, Files, Place};
 use trueaxis_machine::Machine;
+use trueaxis_machine::describe::warn_beyond_travel;
 use trueaxis_predict::predict::drawing::{PartStudy, is_part_study, predict_part, read_part_study};
 use trueaxis_predict::predict::{Error, Study, read_study};
 use trueaxis_report::{Report, document};
@@ -66,7 +67,11 @@ impl CompensateTables {
         let limit_mm = above_zero("--limit", &self.limit, Dimension::Length);
         let limit_rad = above_zero("--limit-angle", &self.limit_angle, Dimension::Angle);
         let reference = match &self.at {
-            Some(text) => Some(words::command(machine, "--at", text, problems)?),
+            Some(text) => {
+                let command = words::command(machine, "--at", text, problems)?;
+                warn_beyond_travel(machine, &command, &argument("--at"), problems);
+                Some(command)
+            }
             None => None,
         };
         Some(Order {
@@ -155,6 +160,11 @@ fn refuse(error: &TablesError, machine: Place, problems: &mut Diagnostics) {
             "too-large",
             argument("--limit"),
             "is it an error of the machine? then raise --limit or --limit-angle",
+        ),
+        TablesError::Turns { .. } => (
+            "another-turn",
+            argument("--target"),
+            "choose another target, or state the travel that is used; of an axis with more than a turn this control repeats its table",
         ),
         TablesError::TooManyNodes { .. }
         | TablesError::ErrorNodes { .. }

@@ -229,6 +229,7 @@ export const codes: Dictionary = {
   "bad-position": "Positionsangabe unzulässig",
   "bad-approach": "Anfahrrichtung unzulässig",
   "too-many-nodes": "Zu viele Stützpunkte für die Steuerung",
+  "another-turn": "Korrektur der Drehachse je Umdrehung anders",
   "bound-below-increment": "Zulässiger Verlust unter Steuerungsinkrement",
   "too-many-tables": "Zu viele Kompensationstabellen für die Steuerung",
   "active-overwritten": "Datei würde eine aktive Kompensation ersetzen",

@@ -229,6 +229,7 @@ export const codes: Dictionary = {
   "bad-position": "位置格式无效",
   "bad-approach": "趋近方向无效",
   "too-many-nodes": "补偿点数超过数控系统限制",
+  "another-turn": "旋转轴每转的补偿不同",
   "bound-below-increment": "允许损失小于系统最小增量",
   "too-many-tables": "补偿表数超过数控系统限制",
   "active-overwritten": "文件会覆盖已生效的补偿",

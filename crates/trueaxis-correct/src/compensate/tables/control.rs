@@ -106,6 +106,11 @@ pub trait Control {
         true
     }
 
+    /// Whether a table of a rotary axis is that of a turn, whatever its travel.
+    fn has_whole_turns(&self) -> bool {
+        false
+    }
+
     /// Nodes and increments of a table.
     fn rule(&self) -> Rule;
 
