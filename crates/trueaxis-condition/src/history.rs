@@ -325,7 +325,10 @@ fn control_limits(points: &[Point]) -> Option<[f64; 3]> {
     if points.len() < LEAST_FOR_LIMITS {
         return None;
     }
-    let mean = points.iter().map(|p| p.value).sum::<f64>() / points.len() as f64;
+    // From the first point on: of equal values the mean is that value, to the last bit.
+    let first = points[0].value;
+    let beyond = points.iter().map(|p| p.value - first).sum::<f64>();
+    let mean = first + beyond / points.len() as f64;
     let ranges = points.windows(2).map(|w| (w[1].value - w[0].value).abs());
     let moving = ranges.sum::<f64>() / (points.len() - 1) as f64;
     Some([mean - MOVING_RANGES * moving, mean, mean + MOVING_RANGES * moving])

@@ -78,3 +78,58 @@ fn tables_at_several_temperatures_are_named() {
         }
     }
 }
+
+/// Three calibrations, a year apart, of one machine file with its year put in.
+fn three(text: impl Fn(u16) -> String) -> trueaxis_condition::history::History {
+    let calibrations = [2024, 2025, 2026].map(|year| {
+        let machine = Machine::check("m.toml", &text(year), &NoTables).0.expect("a machine");
+        read_machine(&format!("{year}.toml"), &machine, &mut Diagnostics::new()).expect("figures")
+    });
+    history(&calibrations, &Limits::new(), &mut Diagnostics::new()).expect("a history")
+}
+
+/// The mean of equal values is that value: the sum of three times 3.7, divided by 3, is another double, and the limits of
+/// values that do not scatter have no width. The same of any value.
+#[test]
+fn law_equal_calibrations_are_steady() {
+    for tenths in 1..200 {
+        let found = three(|year| {
+            format!(
+                "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n[location]\nmeasured = {{ date = {year}-03-10 }}\n\
+                 EC0Y = \"{}.{} ± 2 urad\"\n",
+                tenths / 10,
+                tenths % 10
+            )
+        });
+        assert!(found.series.len() == 1 && found.series[0].is_quiet(), "{:?}", found.series);
+    }
+}
+
+/// The range of EXX stays at 10 µm, its reversal grows from 4 to 24 and 44 µm with 0.5 µm of u: 20 µm a year, and two jumps
+/// beyond 2·√(2·2)·0.5 µm = 2 µm.
+#[test]
+fn backlash_that_grows_is_no_steady_machine() {
+    let found = three(|year| {
+        format!(
+            "[machine]\nname = \"m\"\nchain = \"w X' b Y Z t\"\n[axis.X]\ntravel = [\"0 mm\", \"300 mm\"]\n[motion.X]\n\
+             measured = {{ date = {year}-03-10 }}\nEXX = {{ polynomial = [\"0 um\", \"10 um\"], scale = \"300 mm\", \
+             u = \"0.5 um\", reversal = \"{} um\" }}\n",
+            4 + 20 * (year - 2024)
+        )
+    });
+    let figure = |name: &str| found.series.iter().find(|s| s.name == name).expect("the figure");
+    let (range, reversal) = (figure("EXX range"), figure("EXX reversal"));
+    assert!(range.is_quiet() && range.jumps.is_empty());
+    let values: Vec<f64> = reversal.points.iter().map(|p| p.value).collect();
+    assert!(
+        values.iter().zip([4.0, 24.0, 44.0]).all(|(v, due)| (v - due).abs() < 1e-9),
+        "{values:?}"
+    );
+    let per_year = reversal.trend.expect("a trend").per_year;
+    assert!((per_year - 20.0).abs() < 0.1, "{per_year}");
+    assert_eq!(reversal.jumps.len(), 2);
+    assert!(
+        reversal.jumps.iter().all(|jump| (jump.expanded - 2.0).abs() < 1e-9)
+            && !reversal.is_quiet()
+    );
+}

@@ -90,3 +90,36 @@ fn law_a_grid_leaves_to_tables_what_they_hold() {
     let grid = compiled.grid.expect("a grid").grid;
     assert!(grid.values.iter().all(|value| *value == [0; 3]), "{:?}", grid.values);
 }
+
+/// The sentence about signs is that of the values, whatever carries the axis and in whichever sense it moves: the body of
+/// an error of +10 µm gets −10 µm where a positive command moves it to plus, +10 µm where it moves it to minus.
+#[test]
+fn the_sentence_about_signs_is_that_of_the_values() {
+    for (chain, sense, value) in [
+        ("w b X Y Z t", 1, -10),
+        ("w b X Y Z t", -1, 10),
+        ("w X' b Y Z t", -1, 10),
+        ("w X' b Y Z t", 1, -10),
+    ] {
+        let text = format!(
+            "[machine]\nname = \"m\"\nchain = \"{chain}\"\n[axis.X]\ntravel = [\"0 mm\", \"100 mm\"]\nsense = {sense}\n\
+             [motion.X]\nEXX = \"10 um\""
+        );
+        let machine = Machine::check("m.toml", &text, &NoTables).0.expect("a machine");
+        let order = Order {
+            axis: 0,
+            command: Command::default(),
+            positions: vec![50.0],
+            increment: 1e-3,
+            of: Compensation::Machine,
+        };
+        let table = compensation_values(&machine, &order).expect("values");
+        assert_eq!(table.nodes[0].value.increments, value, "{chain} {sense}");
+        let report = trueaxis_correct::report::compensation_report(&machine, &[table]);
+        let said = format!("{report:?}");
+        let opposite = said.contains("error and value have opposite signs");
+        let positive = said
+            .contains("too far in the positive direction of the machine, the value is positive");
+        assert_eq!((opposite, positive), (value < 0, value > 0), "{chain} {sense}: {said}");
+    }
+}

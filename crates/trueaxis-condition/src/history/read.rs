@@ -66,8 +66,8 @@ pub fn read_limits(texts: &[String], problems: &mut Diagnostics) -> Limits {
     limits
 }
 
-/// The errors of a machine file: location errors by their value, error motions by their range over the travel; each on the
-/// date of its measurement. Errors without a date are left out with a warning.
+/// The errors of a machine file: location errors by their value, error motions by their range over the travel and, where
+/// one is stated, their largest reversal; each on the date of its measurement. Errors without a date are left out with a warning.
 pub fn read_machine(
     file: &str,
     machine: &Machine,
@@ -82,14 +82,16 @@ pub fn read_machine(
             undated.push(name.to_string());
             continue;
         };
-        let Some((value, u, what)) = value_of(machine, name, stated) else { continue };
         let (scale, unit) = if name.component.is_rotation() { (1e6, "urad") } else { (1e3, "um") };
-        let u = stated.u.is_some().then_some(u * scale);
-        let point = Point { date, value: value * scale, u, file: file.to_owned() };
-        let figure = format!("{name}{what}");
-        let celsius = table_celsius(machine, name, stated);
-        tables_celsius.extend(celsius.map(|celsius| (figure.clone(), celsius)));
-        figures.push((figure, unit.to_owned(), point));
+        let reversal = reversal_of(machine, name, stated);
+        for (value, u, what) in value_of(machine, name, stated).into_iter().chain(reversal) {
+            let u = stated.u.is_some().then_some(u * scale);
+            let point = Point { date, value: value * scale, u, file: file.to_owned() };
+            let figure = format!("{name}{what}");
+            let celsius = table_celsius(machine, name, stated).filter(|_| what != REVERSAL);
+            tables_celsius.extend(celsius.map(|celsius| (figure.clone(), celsius)));
+            figures.push((figure, unit.to_owned(), point));
+        }
     }
     if figures.is_empty() {
         let message = "no error of this machine file has a date".to_owned();
@@ -128,19 +130,42 @@ fn value_of(
     if name.kind == ErrorKind::Location {
         return Some((stated.at(0.0, 0.0).ok()?, stated.u_at(0.0), ""));
     }
+    let places = places(machine, name)?;
+    let values: Vec<f64> = places.iter().filter_map(|q| stated.at(*q, 0.0).ok()).collect();
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let u = places.iter().map(|q| stated.u_at(*q)).fold(0.0, f64::max);
+    // The two ends of a range err by themselves.
+    (high >= low).then_some((high - low, u * std::f64::consts::SQRT_2, " range"))
+}
+
+/// The name of a reversal after that of its error.
+const REVERSAL: &str = " reversal";
+
+/// The reversal of an error motion where it is largest, rising less falling, and its standard uncertainty. Unit: mm or rad.
+fn reversal_of(
+    machine: &Machine,
+    name: ErrorName,
+    stated: &StatedError,
+) -> Option<(f64, f64, &'static str)> {
+    stated.reversal.as_ref()?;
+    let at = |q: f64, side: f64| stated.at(q, side).ok();
+    let places = places(machine, name)?.into_iter();
+    let each = places.filter_map(|q| Some((at(q, 1.0)? - at(q, -1.0)?, stated.u_at(q))));
+    let (value, u) = each.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
+    // The two directions err by themselves.
+    Some((value, u * std::f64::consts::SQRT_2, REVERSAL))
+}
+
+/// Positions along the travel of the axis of an error.
+fn places(machine: &Machine, name: ErrorName) -> Option<Vec<f64>> {
     let axis = &machine.axes()[machine.axis_index(name.body)?];
     let (from, to) = match axis.travel {
         Travel::Between(from, to) => (from, to),
         _ if axis.kind == AxisKind::Rotary => (0.0, std::f64::consts::TAU),
         _ => (-USUAL_MM, USUAL_MM),
     };
-    let at = |k: usize| from + (to - from) * k as f64 / (PLACES - 1) as f64;
-    let values: Vec<f64> = (0..PLACES).filter_map(|k| stated.at(at(k), 0.0).ok()).collect();
-    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let u = (0..PLACES).map(|k| stated.u_at(at(k))).fold(0.0, f64::max);
-    // The two ends of a range err by themselves.
-    (high >= low).then_some((high - low, u * std::f64::consts::SQRT_2, " range"))
+    Some((0..PLACES).map(|k| from + (to - from) * k as f64 / (PLACES - 1) as f64).collect())
 }
 
 /// The figures of a document of `evaluate`.

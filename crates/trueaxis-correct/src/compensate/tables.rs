@@ -6,6 +6,7 @@
 //!                      └─ rest ──lever──> tables, grid ─┴─> content ──write──> files ──read──> emulation ──> residual error
 //! ```
 //!
+//! - `held`: what the control has in force already, which no file may go in the place of;
 //! - [`known`]: which errors the control's own chain can hold, by [`joints`] or by functions of each link (`link`);
 //! - `lever`: what every axis should add, and what of it is a function of one axis; `choose`: which of it helps;
 //! - [`place`], [`grid`]: the fewest nodes below a bound of the loss; [`temperature`]: straight lines;
@@ -25,7 +26,9 @@ pub mod emulation;
 mod fanuc;
 mod fault;
 pub mod grid;
+mod grid_of;
 mod heidenhain;
+mod held;
 mod isg;
 pub mod joints;
 mod joints_csv;
@@ -38,6 +41,7 @@ mod nominal;
 pub mod place;
 pub mod proof;
 mod sinumerik;
+mod spread;
 pub mod table;
 mod temp_comp;
 pub mod temperature;

@@ -76,10 +76,19 @@ pub fn compensation_warnings(machine: &Machine, tables: &[ValueTable]) -> Vec<St
     worse.map(tell).collect()
 }
 
+/// Errors are along the machine's axes, the value along the command, which moves the body by its sense.
 fn sign_note(axis: &Axis) -> String {
-    let carried = match axis.carries {
-        AxisSide::Tool => "it carries the tool: error and value have opposite signs",
-        AxisSide::Workpiece => {
+    let along = axis.sense * axis.direction[axis.direction.iamax()];
+    let carried = match (axis.carries, along > 0.0) {
+        (AxisSide::Tool, true) => "it carries the tool: error and value have opposite signs",
+        (AxisSide::Tool, false) => {
+            "it carries the tool against its command: where its body stands too far in the positive direction \
+             of the machine, the value is positive"
+        }
+        (AxisSide::Workpiece, true) => {
+            "it carries the workpiece along its command: error and value have opposite signs"
+        }
+        (AxisSide::Workpiece, false) => {
             "it carries the workpiece: where its body stands too far in the positive direction of the \
              machine, the value is positive"
         }

@@ -167,7 +167,11 @@ impl Conditions {
         } else {
             let message =
                 format!("{body}: no temperature for {names}; its thermal errors are not included");
-            let hint = "the temperature of its error table is assumed";
+            // Of a workpiece there is no table: its drawing holds at 20 °C.
+            let hint = match body {
+                "workpiece" => "20 °C, the temperature of its drawing, is assumed",
+                _ => "the temperature of its error table is assumed",
+            };
             problems.note("missing-sensor", self.place.clone(), message, hint);
         }
         None

@@ -12,6 +12,7 @@ use trueaxis_correct::compensate::tables::proof::{IndexLeft, part_left, piece_le
 use trueaxis_correct::compensate::tables::{Compiled, Order, TablesError, Target, compile};
 use trueaxis_input::{Diagnostics, Dimension, Files, Place};
 use trueaxis_machine::Machine;
+use trueaxis_machine::describe::warn_beyond_travel;
 use trueaxis_predict::predict::drawing::{PartStudy, is_part_study, predict_part, read_part_study};
 use trueaxis_predict::predict::{Error, Study, read_study};
 use trueaxis_report::{Report, document};
@@ -66,7 +67,11 @@ impl CompensateTables {
         let limit_mm = above_zero("--limit", &self.limit, Dimension::Length);
         let limit_rad = above_zero("--limit-angle", &self.limit_angle, Dimension::Angle);
         let reference = match &self.at {
-            Some(text) => Some(words::command(machine, "--at", text, problems)?),
+            Some(text) => {
+                let command = words::command(machine, "--at", text, problems)?;
+                warn_beyond_travel(machine, &command, &argument("--at"), problems);
+                Some(command)
+            }
             None => None,
         };
         Some(Order {
@@ -101,7 +106,8 @@ impl Question for CompensateTables {
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
         may_fill(&self.output, problems);
         let machine = self.machine.read(files, problems)?;
-        let machine = not_twice(&machine, self.machine.place(), problems);
+        // What is active is named; the tables leave it out, and know where it is held.
+        not_twice(&machine, self.machine.place(), problems);
         let order = self.order(&machine, problems);
         let only = self.machine_only;
         let (machine, price) = machine_or_part(machine, &self.machine, files, only, problems)?;
@@ -131,6 +137,7 @@ impl Question for CompensateTables {
         let output = self.output.clone();
         let written = compiled.files.iter().map(|f| output.join(&f.name).display().to_string());
         let written = written.collect();
+        let machine = machine.with_active_compensation();
         Some(TablesAnswer { machine, compiled, piece, part, output, written, price })
     }
 }
@@ -154,6 +161,11 @@ fn refuse(error: &TablesError, machine: Place, problems: &mut Diagnostics) {
             argument("--limit"),
             "is it an error of the machine? then raise --limit or --limit-angle",
         ),
+        TablesError::Turns { .. } => (
+            "another-turn",
+            argument("--target"),
+            "choose another target, or state the travel that is used; of an axis with more than a turn this control repeats its table",
+        ),
         TablesError::TooManyNodes { .. }
         | TablesError::ErrorNodes { .. }
         | TablesError::GridPoints { .. } => {
@@ -172,6 +184,12 @@ fn refuse(error: &TablesError, machine: Place, problems: &mut Diagnostics) {
         TablesError::TooManyTables { .. } => {
             ("too-many-tables", argument("--target"), "choose another target; csv takes any number")
         }
+        TablesError::Active { .. } => (
+            "active-overwritten",
+            machine,
+            "a table is loaded whole: take the error out of [compensation] active, so that the file holds it too; \
+             then load the file instead of what is in force",
+        ),
         TablesError::NotRecovered(_) => (
             "not-recovered",
             argument("--target"),

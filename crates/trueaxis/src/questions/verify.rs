@@ -9,8 +9,9 @@ use crate::verify::compare::{
 };
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use trueaxis_input::{Diagnostics, Files, Place};
+use trueaxis_input::{Date, Diagnostics, Files, Place};
 use trueaxis_machine::Machine;
+use trueaxis_machine::errors::ErrorName;
 use trueaxis_part::tolerance::Outcome;
 use trueaxis_report::Report;
 
@@ -112,6 +113,55 @@ impl CalibrationsAnswer {
     }
 }
 
+impl CompareCalibrations {
+    /// What may not be two calibrations of one machine in their order, or not of the same state of its control.
+    fn doubts(&self, [old, new]: [&Machine; 2], problems: &mut Diagnostics) {
+        let place = || whole(&self.new);
+        let older = self.old.display();
+        if old.name() != new.name() {
+            let message =
+                format!("the machine is `{}`, that of {older} is `{}`", new.name(), old.name());
+            let hint = "two calibrations are those of one machine: is it the right file? then give it one name";
+            problems.warn("other-machine", place(), message, hint);
+        }
+        if let Some((name, [first, second])) = wrong_order(old, new) {
+            let message = format!("{name} is of {second} here, and of {first}, later, in {older}");
+            let hint = "name the older file first; or is one of the dates wrong?";
+            problems.warn("date-order", place(), message, hint);
+        }
+        let active = [old, new].map(Machine::active_compensation);
+        let alone = |a: usize, b: usize| {
+            let names = active[a].iter().filter(|name| !active[b].contains(name));
+            names.map(ToString::to_string).collect::<Vec<_>>()
+        };
+        let alone: Vec<String> = alone(0, 1).into_iter().chain(alone(1, 0)).collect();
+        if !alone.is_empty() {
+            let message = format!(
+                "the control compensates {} in one of the files alone: what is compared is the errors that the files state, \
+                 not the tool as it runs",
+                alone.join(" ")
+            );
+            let hint = "were both measured with the same tables switched on, or off?";
+            problems.note("already-active", place(), message, hint);
+        }
+    }
+}
+
+/// The first error that is of a later day in the older file, with both days as they are written.
+fn wrong_order(old: &Machine, new: &Machine) -> Option<(ErrorName, [String; 2])> {
+    let day = |machine: &Machine, name: ErrorName| {
+        let index = machine.error_index(name)?;
+        let stated = machine.bodies()[index.body].stated(index.kind, index.component)?;
+        stated.measured.date.clone()
+    };
+    let mut names = old.stated_errors().into_iter().map(|(_, name)| name);
+    names.find_map(|name| {
+        let days = [day(old, name)?, day(new, name)?];
+        let [first, second] = [Date::parse(&days[0])?, Date::parse(&days[1])?];
+        (first > second).then_some((name, days))
+    })
+}
+
 impl Question for CompareCalibrations {
     type Input = [Machine; 2];
     type Answer = CalibrationsAnswer;
@@ -129,6 +179,7 @@ impl Question for CompareCalibrations {
         problems: &mut Diagnostics,
     ) -> Option<CalibrationsAnswer> {
         let names = [&self.old, &self.new].map(|path| path.display().to_string());
+        self.doubts([&old, &new], problems);
         match calibrations(&old, &new) {
             Ok(found) => {
                 for two in found.temperatures.iter().filter(|two| two.expansion_per_k.is_none()) {

@@ -41,7 +41,7 @@ use trueaxis_geometry::Vec3;
 use trueaxis_input::Place;
 use trueaxis_machine::axis::{Approach, Axis, AxisKind, Command, Travel};
 use trueaxis_machine::compensate::Fault;
-use trueaxis_machine::volume::commands;
+use trueaxis_machine::volume::{approaches, commands};
 use trueaxis_part::tolerance::Outcome;
 
 /// Poses over the zone beside its corners.
@@ -223,19 +223,35 @@ fn differences(measured: &MeasuredValue, predicted: &Residual) -> [Vec3; 2] {
     [before, measured.after_mm - predicted.after.tip_mm]
 }
 
+/// Every pose from every side from which an axis with reversal comes; the zero may have been set from any of them.
 fn over_the_zone(study: &Study, zero: Option<&Residual>) -> Volume {
     let mut volume = Volume { poses: 0, rms_mm: [0.0; 2], largest_mm: 0.0, at: Command::default() };
+    let approaches = approaches(&[&study.machine]);
+    let tips = |command: &Command| -> Option<Vec<[Vec3; 2]>> {
+        let tools = approaches.iter().map(|approach| {
+            let tools = Residual::tools(&study.machine, &study.applied, command, approach);
+            tools.map(|both| both.map(|tool| tool.tip_mm)).ok()
+        });
+        tools.collect()
+    };
+    let zeros = study.validation.zero.as_ref().and_then(&tips);
+    let zeros = zeros.unwrap_or_else(|| vec![[Vec3::zeros(); 2]]);
+    let mean = zero.map_or([Vec3::zeros(); 2], |zero| [zero.before.tip_mm, zero.after.tip_mm]);
+    let per_pose = approaches.len() as f64;
     for command in commands(&study.zone, POSES) {
+        let still = Approach::default();
         let applied = (&study.known, &study.applied);
-        let Ok(here) = Residual::at(&study.machine, applied, &command, &Approach::default()) else {
-            continue;
-        };
+        let Ok(here) = Residual::at(&study.machine, applied, &command, &still) else { continue };
+        let Some(tips) = tips(&command) else { continue };
         let here = zero.map_or_else(|| here.clone(), |zero| here.against(zero));
         let u_mm = here.covariance_mm2().symmetric_eigenvalues().max().max(0.0).sqrt();
-        let most = here.after.tip_mm.norm() + study.decision.coverage_factor * u_mm;
+        let pairs = tips.iter().flat_map(|tip| zeros.iter().map(|zero| (tip[1] - zero[1]).norm()));
+        let most = pairs.fold(0.0, f64::max) + study.decision.coverage_factor * u_mm;
         volume.poses += 1;
-        volume.rms_mm[0] += here.before.tip_mm.norm_squared();
-        volume.rms_mm[1] += here.after.tip_mm.norm_squared();
+        for (state, rms_mm) in volume.rms_mm.iter_mut().enumerate() {
+            let squares = tips.iter().map(|tip| (tip[state] - mean[state]).norm_squared());
+            *rms_mm += squares.sum::<f64>() / per_pose;
+        }
         if most > volume.largest_mm {
             (volume.largest_mm, volume.at) = (most, command);
         }

@@ -113,6 +113,7 @@ export const codes: Dictionary = {
   "missing-machine": "Maschinendatei zum Eintragen fehlt",
   "unknown-figure": "Kennwert nicht vorhanden",
   "tolerances-unused": "Keine Toleranz der Datei trifft zu",
+  "date-order": "Älterer Stand mit späterem Datum",
   "same-date": "Kennwert am selben Tag doppelt",
   "no-date": "Datum der Kalibrierung fehlt",
   "no-history": "Weniger als zwei Kalibrierungen",

@@ -113,6 +113,7 @@ export const codes: Dictionary = {
   "missing-machine": "缺少写入误差的机床文件",
   "unknown-figure": "没有该指标",
   "tolerances-unused": "文件中无适用的公差",
+  "date-order": "旧标定的日期更晚",
   "same-date": "同一日期指标重复",
   "no-date": "校准缺少日期",
   "no-history": "校准不足两次",

@@ -4,26 +4,34 @@ use super::choose::{Candidate, choose};
 use super::content::Content;
 use super::control::{Control, File, range};
 use super::emulation::Emulation;
-use super::grid::{GridFault, Gridded};
+use super::grid_of::gridded;
+use super::held::nothing_overwritten;
 use super::joints::Joints;
 use super::lever::Lever;
 use super::place::{PlaceFault, Placed};
 use super::proof::{Left, error_losses, left_after_zero_set, left_over};
-use super::table::{PER_UNIT, Table, count_of, counts};
+use super::table::{Table, count_of, counts};
 use super::{
-    Compiled, LeftOut, Made, Order, TablesError, What, grid, known, lever, place, shown,
-    shown_place, temperature,
+    Compiled, LeftOut, Made, Order, TablesError, What, known, place, shown, shown_place,
+    temperature,
 };
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{Approach, AxisKind, Command, Travel};
+use trueaxis_machine::axis::{AxisKind, Command, Travel};
 use trueaxis_machine::chain::CommandFault;
 use trueaxis_machine::errors::ErrorName;
 
-/// Compiles the tables of a control, reads them back and says what they leave.
+/// Compiles the tables of a control, reads them back and says what they leave. Errors that the machine file calls active
+/// are in force and stay so: they are not compensated again, and nothing is written in their place.
 ///
 /// # Errors
 /// [`TablesError`]; then there is no file.
 pub fn compile(machine: &Machine, order: &Order) -> Result<Compiled, TablesError> {
+    let compiled = compiled(&machine.with_active_compensation(), order)?;
+    nothing_overwritten(machine, order, &compiled)?;
+    Ok(compiled)
+}
+
+fn compiled(machine: &Machine, order: &Order) -> Result<Compiled, TablesError> {
     let with = Draft::of(machine, order)?;
     let control = order.target.control();
     let joints = with.compiled.joints.as_ref();
@@ -70,7 +78,8 @@ impl Draft {
         compiled.wrong_sign = left(&read.negated(machine))?;
         compiled.after = left(&read)?;
         let (reference, control) = (compiled.reference, control.as_ref());
-        compiled.errors = error_losses(machine, &reference, (control, &read), &order);
+        let beside = functions_elsewhere(&read, &compiled.left_out);
+        compiled.errors = error_losses(machine, &reference, (control, &read, &beside), &order);
         Ok(compiled)
     }
 
@@ -103,7 +112,10 @@ impl Draft {
             reason: UNCERTAIN,
         }));
         content.tables = tables.iter().map(|t| t.table.clone()).collect();
-        let gridded = gridded(&rest, order, &reference, (control.as_ref(), &content))?;
+        let beside = functions_elsewhere(&content, &left_out);
+        let (gridded, not_in_grid) =
+            gridded(&rest, order, &reference, (control.as_ref(), &beside))?;
+        left_out.extend(not_in_grid);
         content.grid = gridded.as_ref().map(|g| g.grid.clone());
         let files = control.write(machine, &content);
         let read = recovered(machine, control.as_ref(), &content, &files)?;
@@ -127,6 +139,17 @@ impl Draft {
         };
         Ok(Self { compiled, read })
     }
+}
+
+/// The functions that are not for the grid: those of the tables, and of tables that are not known well enough.
+fn functions_elsewhere(content: &Content, left_out: &[LeftOut]) -> Vec<(usize, usize)> {
+    let written = content.tables.iter().map(|t| (t.input, t.output));
+    let uncertain = left_out.iter().filter(|out| out.reason == UNCERTAIN);
+    let uncertain = uncertain.filter_map(|out| match out.what {
+        What::Table { input, output } => Some((input, output)),
+        What::Error(_) => None,
+    });
+    written.chain(uncertain).collect()
 }
 
 /// The rotary axes as the control's parameters have them, if it knows an error of them; and the errors that are not
@@ -178,59 +201,6 @@ fn tables(
     }
 }
 
-/// The grid of what tables leave where the rotary axes stand at the reference.
-fn gridded(
-    rest: &Machine,
-    order: &Order,
-    reference: &Command,
-    (control, content): (&dyn Control, &Content),
-) -> Result<Option<Gridded>, TablesError> {
-    let Some(rule) = control.grid() else { return Ok(None) };
-    let linear = rest.axes().iter().enumerate().filter(|(_, a)| a.kind == AxisKind::Linear);
-    let axes: Vec<usize> = linear.map(|(i, _)| i).collect();
-    let Some(axes) = axes.first_chunk::<3>() else { return Ok(None) };
-    // The functions, not the tables: what a table loses between its nodes is not for the grid to make up.
-    let lever = Lever::new(rest, *reference)?;
-    let by_tables = |command: &Command| {
-        let mut added = Command::default();
-        for table in &content.tables {
-            let all = lever.functions(table.input, command[table.input], 0.0)?;
-            added[table.output] += all[table.output];
-        }
-        Ok::<_, CommandFault>(added)
-    };
-    let mut ends = [(0, 0, 0); 3];
-    for (end, axis) in ends.iter_mut().zip(axes) {
-        let ((from, to), _) = range(&rest.axes()[*axis], control)?;
-        *end = (*axis, from, to);
-    }
-    let wanted = |place: [i64; 3]| {
-        let mut command = *reference;
-        for ((axis, from, to), at) in ends.iter().zip(place) {
-            // The last point may lie beyond the travel, where nothing is known.
-            command[*axis] = at.clamp(*from, *to) as f64 * count_of(rest, *axis);
-        }
-        let still = Approach::default();
-        let whole = lever::correction(rest, &command, &still)?;
-        let by_tables = by_tables(&command)?;
-        Ok(axes.map(|axis| counts(rest, axis, whole[axis] - by_tables[axis])))
-    };
-    let bound = order.bound_mm * PER_UNIT;
-    grid::place(&wanted, ends, rule, bound).map(Some).map_err(|fault| match fault {
-        GridFault::Machine(fault) => TablesError::Position(fault),
-        GridFault::TooMany(loss) => TablesError::GridPoints {
-            target: control.key(),
-            loss: loss / PER_UNIT * 1e3,
-            bound: order.bound_mm * 1e3,
-        },
-        GridFault::TooLarge(value) => TablesError::GridValue {
-            target: control.key(),
-            value: value as f64 / PER_UNIT * 1e3,
-            most: rule.largest as f64 / PER_UNIT * 1e3,
-        },
-    })
-}
-
 fn recovered(
     machine: &Machine,
     control: &dyn Control,
@@ -244,7 +214,8 @@ fn recovered(
     }
 }
 
-fn middle(machine: &Machine) -> Command {
+/// The middle of linear travels, rotary axes at 0.
+pub fn middle(machine: &Machine) -> Command {
     let mut reference = Command::default();
     for (q, axis) in reference.iter_mut().zip(machine.axes()) {
         *q = match (axis.kind, axis.travel) {
@@ -269,6 +240,7 @@ fn candidate(
 ) -> Result<Result<Candidate, Option<LeftOut>>, TablesError> {
     let (axis, moved) = (&machine.axes()[input], &machine.axes()[output]);
     let ((from, to), modulo) = range(axis, control)?;
+    let modulo = modulo || control.has_whole_turns() && axis.kind == AxisKind::Rotary;
     let (count_in, count_out) = (count_of(machine, input), count_of(machine, output));
     let function = |at: i64| {
         let q = at as f64 * count_in;
@@ -277,6 +249,7 @@ fn candidate(
     };
     // Of errors that are known together the u of one function says nothing.
     let (mut largest, mut certain) = (0.0_f64, machine.joint().is_some());
+    let half = 0.5 * control.rule().increment * count_out;
     for i in 0..=GLANCES {
         let at = from + ((to - from) as i128 * i as i128 / GLANCES as i128) as i64;
         let size = function(at)?.map(f64::abs).into_iter().fold(0.0, f64::max) * count_out;
@@ -290,9 +263,10 @@ fn candidate(
             });
         }
         largest = largest.max(size);
-        certain |= size > lever.u(input, at as f64 * count_in)?[output];
+        // What is less than half an increment shows nothing.
+        certain = certain || size > half && size > lever.u(input, at as f64 * count_in)?[output];
     }
-    if largest < 0.5 * control.rule().increment * count_out {
+    if largest < half {
         return Ok(Err(None));
     }
     if !certain {
@@ -306,6 +280,12 @@ fn candidate(
         PlaceFault::Increment => TablesError::Increment {
             target: control.key(),
             output: moved.name,
+            bound: shown(moved, bound),
+        },
+        PlaceFault::Turns(loss) => TablesError::Turns {
+            target: control.key(),
+            axis: axis.name,
+            loss: shown(moved, loss * count_out),
             bound: shown(moved, bound),
         },
         PlaceFault::TooMany(loss) => TablesError::TooManyNodes {

@@ -106,8 +106,24 @@ pub trait Control {
         true
     }
 
+    /// Whether a table of a rotary axis is that of a turn, whatever its travel.
+    fn has_whole_turns(&self) -> bool {
+        false
+    }
+
     /// Nodes and increments of a table.
     fn rule(&self) -> Rule;
+
+    /// Whether a table takes the place of one that is held for other axes, because both are numbered from the first on.
+    /// `directed`: the held one is by direction.
+    fn shares_numbers(&self, _written: &Table, _held: (usize, usize), _directed: bool) -> bool {
+        false
+    }
+
+    /// Whether the errors of all links stand in one file.
+    fn has_one_file_of_links(&self) -> bool {
+        false
+    }
 
     /// The most tables, all together.
     fn most_tables(&self) -> usize {

@@ -3,6 +3,8 @@
 //! ```text
 //!     pitch    number n: what the compensation grows by from point n − 1 to point n, in whole increments;
 //!              at the reference position it is the grid shift (1850); given out half way between two points
+//!     rotary   from the reference position (3620 = 3621) one turn on (3622 = 3620 + 3625/3624); the first number has the
+//!              value of the last, and those after the first have the sum 0
 //!     grid     trilinear between points of equal distances
 //! ```
 //!
@@ -18,7 +20,7 @@ use super::table::{Node, PER_UNIT, Table, axis_order, decimal, parse_decimal};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{AxisKind, Travel};
+use trueaxis_machine::axis::AxisKind;
 use trueaxis_machine::errors::ErrorName;
 
 /// A FANUC 30i.
@@ -59,12 +61,21 @@ impl Control for Fanuc {
         }
     }
 
+    fn has_whole_turns(&self) -> bool {
+        true
+    }
+
     fn value(&self, table: &Table, position: f64, side: f64) -> f64 {
         let position = match table.modulo {
             true => position.rem_euclid(360.0 * PER_UNIT),
             false => position,
         };
         stepwise(&table.nodes, position, side)
+    }
+
+    /// The numbers of pitch data begin with 0 in every file.
+    fn shares_numbers(&self, _written: &Table, _held: (usize, usize), _directed: bool) -> bool {
+        true
     }
 
     fn grid(&self) -> Option<GridRule> {
@@ -107,8 +118,8 @@ impl Control for Fanuc {
         for (number, axis) in axis_order(machine).into_iter().enumerate() {
             let of = |n: i64| parameters.get(&(n, number + 1)).copied();
             if let Some(reference) = of(3620) {
-                let modulo = machine.axes()[axis].travel == Travel::Unlimited;
-                let nodes = nodes(&pitch, reference / COUNTS, &of)?;
+                let modulo = machine.axes()[axis].kind == AxisKind::Rotary;
+                let nodes = nodes(&pitch, (reference / COUNTS, modulo), &of)?;
                 tables.push(checked(
                     PITCH,
                     Table { input: axis, output: axis, modulo, nodes },
@@ -173,7 +184,9 @@ fn at_zero(table: &Table) -> (i64, i64) {
 fn values_of(table: &Table, first: i64) -> String {
     let mut text = String::new();
     let mut growth = |from: i64, value: &dyn Fn(&Node) -> i64| {
-        let mut before = value(&table.nodes[0]);
+        // All around the first number is the last one again.
+        let around = table.nodes.len().checked_sub(2).filter(|_| table.modulo).unwrap_or(0);
+        let mut before = value(&table.nodes[around]);
         for (i, node) in table.nodes.iter().enumerate() {
             let grown = (value(node) - before) / UNIT;
             before = value(node);
@@ -219,44 +232,83 @@ fn numbers(file: &File) -> Result<Numbers, ReadFault> {
     Ok(numbers)
 }
 
+/// A turn of a rotary axis, counts.
+const TURN: i64 = 360 * COUNTS;
+
+/// Where the points of an axis stand.
+struct Points {
+    first: i64,
+    last: i64,
+    reference: i64,
+    step: i64,
+}
+
+impl Points {
+    fn read(reference: i64, rotary: bool, get: &Get<'_>) -> Result<Self, ReadFault> {
+        let fault = |expected| Err(ReadFault::new(PARAMETERS, expected));
+        let (first, last, step) = (get(3621)? / COUNTS, get(3622)? / COUNTS, get(3624)?);
+        let inside = (0..MOST_NODES as i64).contains(&(last - first));
+        if !inside || !(first..=last).contains(&reference) || step <= 0 {
+            return fault("3621 below 3620 below 3622, and 3624 above 0");
+        }
+        let is_turn = || Ok::<_, ReadFault>(get(3625)? == TURN && step * (last - first) == TURN);
+        if rotary && (first != reference || !is_turn()?) {
+            return fault("of a rotary axis 3621 = 3620, 3625 = 360, and 3622 = 3620 + 3625/3624");
+        }
+        Ok(Self { first, last, reference, step })
+    }
+
+    /// The compensation at each point from the data that begin with this number.
+    fn absolute(
+        &self,
+        pitch: &Numbers,
+        (number, at_reference): (i64, i64),
+        rotary: bool,
+    ) -> Result<Vec<i64>, ReadFault> {
+        let numbers = (0..=self.last - self.first).map(|n| IN_FILE + number + n);
+        let grown = numbers.clone().map(|n| {
+            let value = pitch.get(&(n, 0)).map(|v| v / COUNTS * UNIT);
+            value.ok_or_else(|| ReadFault::new(PITCH, format!("N{n}")))
+        });
+        let grown = grown.collect::<Result<Vec<i64>, _>>()?;
+        if rotary && (grown.first() != grown.last() || grown[1..].iter().sum::<i64>() != 0) {
+            let expected = "of a rotary axis the first value that of the last, and the sum of those after it 0";
+            return Err(ReadFault::new(PITCH, expected));
+        }
+        let mut sum = 0;
+        let sums = grown.iter().enumerate().map(|(i, g)| {
+            sum += if i == 0 { 0 } else { *g };
+            sum
+        });
+        let sums: Vec<i64> = sums.collect();
+        let there = sums[(self.reference - self.first) as usize];
+        Ok(sums.into_iter().map(|s| s - there + at_reference).collect())
+    }
+}
+
+type Get<'a> = dyn Fn(i64) -> Result<i64, ReadFault> + 'a;
+
 fn nodes(
     pitch: &Numbers,
-    reference: i64,
+    (reference, rotary): (i64, bool),
     of: &dyn Fn(i64) -> Option<i64>,
 ) -> Result<Vec<Node>, ReadFault> {
     let missing = |n: i64| ReadFault::new(PARAMETERS, format!("parameter {n} of each axis"));
     let get = |n: i64| of(n).ok_or_else(|| missing(n));
-    let (first, last, step) = (get(3621)? / COUNTS, get(3622)? / COUNTS, get(3624)?);
-    let inside = (0..MOST_NODES as i64).contains(&(last - first));
-    if !inside || !(first..=last).contains(&reference) || step <= 0 {
-        return Err(ReadFault::new(PARAMETERS, "3621 below 3620 below 3622, and 3624 above 0"));
-    }
-    let absolute = |shift: i64, at_reference: i64| {
-        let grown = (first..=last).map(|n| {
-            let value = pitch.get(&(IN_FILE + shift + n, 0)).map(|v| v / COUNTS * UNIT);
-            value.ok_or_else(|| ReadFault::new(PITCH, format!("N{}", IN_FILE + shift + n)))
-        });
-        let grown = grown.collect::<Result<Vec<i64>, _>>()?;
-        let mut sum = 0;
-        let sums: Vec<i64> = grown
-            .iter()
-            .enumerate()
-            .map(|(i, g)| {
-                sum += if i == 0 { 0 } else { *g };
-                sum
-            })
-            .collect();
-        let there = sums[(reference - first) as usize];
-        Ok::<_, ReadFault>(sums.into_iter().map(|s| s - there + at_reference).collect::<Vec<_>>())
-    };
+    let points = Points::read(reference, rotary, &get)?;
     let zero = get(1850)? / COUNTS * UNIT;
-    let up = absolute(0, zero)?;
+    let up = points.absolute(pitch, (points.first, zero), rotary)?;
     let down = match of(3627) {
-        Some(at_reference) => absolute(FALLING, zero + at_reference / COUNTS * UNIT)?,
+        Some(at_reference) => {
+            let falling = get(3626)? / COUNTS;
+            let at_reference = zero + at_reference / COUNTS * UNIT;
+            points.absolute(pitch, (falling, at_reference), rotary)?
+        }
         None => up.clone(),
     };
-    let pairs = up.into_iter().zip(down).zip(first..);
-    Ok(pairs.map(|((up, down), n)| Node { at: (n - reference) * step, up, down }).collect())
+    let pairs = up.into_iter().zip(down).zip(points.first..);
+    let node = |((up, down), n)| Node { at: (n - reference) * points.step, up, down };
+    Ok(pairs.map(node).collect())
 }
 
 fn grid_text(machine: &Machine, grid: &Grid) -> String {

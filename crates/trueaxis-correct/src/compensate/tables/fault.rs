@@ -35,6 +35,21 @@ pub enum TablesError {
         /// The limit.
         limit: String,
     },
+    /// The control has the table of one turn, and the correction is another one in the next.
+    #[error(
+        "the table of {axis} of {target} is that of one turn; the correction differs from turn to turn, which would \
+         leave {loss}, more than {bound}"
+    )]
+    Turns {
+        /// The control.
+        target: &'static str,
+        /// The rotary axis.
+        axis: BodyName,
+        /// Half the largest difference.
+        loss: String,
+        /// What was asked.
+        bound: String,
+    },
     /// The control has not enough nodes.
     #[error("{most} nodes of {input} for {output} leave {loss}, more than {bound}")]
     TooManyNodes {
@@ -122,6 +137,16 @@ pub enum TablesError {
         needed: usize,
         /// What it takes.
         most: usize,
+    },
+    /// The control has one place for it, and an active error is there.
+    #[error(
+        "{written} would go in the place of what the control holds for {error}, which is active"
+    )]
+    Active {
+        /// The active error.
+        error: ErrorName,
+        /// What would be written there.
+        written: String,
     },
     /// What was written is not what is read.
     #[error("what was written could not be read back: {0}")]

@@ -51,6 +51,10 @@ impl Control for Isg {
         true
     }
 
+    fn has_one_file_of_links(&self) -> bool {
+        true
+    }
+
     fn link_frame(&self, machine: &Machine, body: usize) -> ErrorFrame {
         match machine.bodies()[body].axis.map(|i| machine.axes()[i].kind) {
             Some(AxisKind::Rotary) => ErrorFrame::Fixed,

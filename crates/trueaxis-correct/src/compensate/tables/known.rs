@@ -195,7 +195,7 @@ fn function(
         PlaceFault::Increment => {
             TablesError::ErrorIncrement { target: control.key(), error, bound: shown(error, bound) }
         }
-        PlaceFault::TooMany(loss) => TablesError::ErrorNodes {
+        PlaceFault::TooMany(loss) | PlaceFault::Turns(loss) => TablesError::ErrorNodes {
             error,
             most: rule.most_nodes,
             loss: shown(error, loss * count),

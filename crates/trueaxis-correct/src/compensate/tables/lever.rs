@@ -11,8 +11,9 @@
 //! against an error of another body is right in one pose and wrong in the next.
 
 use super::super::values::body_of;
-use super::nominal::{Nominal, Nominals, nominal_tip};
-use std::cell::RefCell;
+use super::nominal::{Nominal, Nominals};
+use super::spread::{Spread, together};
+use std::cell::{OnceCell, RefCell};
 use std::collections::HashMap;
 use std::rc::Rc;
 use trueaxis_machine::Machine;
@@ -25,7 +26,7 @@ use trueaxis_machine::volume::commands;
 const STEPS: usize = 3;
 
 /// Poses of the means, beside the corners.
-const POSES: u32 = 96;
+pub const POSES: u32 = 96;
 
 /// A machine that is to be compensated, the other axes standing at a reference.
 pub struct Lever<'a> {
@@ -39,6 +40,7 @@ pub struct Lever<'a> {
     /// What was asked before: an input gives every output at once, and they ask one after the other.
     asked: RefCell<HashMap<(usize, u64, u64), Command>>,
     uncertain: RefCell<HashMap<(usize, u64), Command>>,
+    spread: OnceCell<Spread<'a>>,
 }
 
 impl<'a> Lever<'a> {
@@ -66,6 +68,7 @@ impl<'a> Lever<'a> {
             nominals,
             asked: RefCell::default(),
             uncertain: RefCell::default(),
+            spread: OnceCell::new(),
         };
         lever.whole(0, reference[0], 0.0)?;
         let mut count = 0.0;
@@ -83,6 +86,11 @@ impl<'a> Lever<'a> {
         let means = lever.mean_of.iter_mut().chain([&mut lever.mean]);
         means.flatten().for_each(|v| *v /= f64::max(count, 1.0));
         Ok(lever)
+    }
+
+    /// The machine.
+    pub fn machine(&self) -> &Machine {
+        self.machine
     }
 
     /// What an input axis at a position makes every axis add, mm or rad: the functions f_io of all
@@ -112,21 +120,30 @@ impl<'a> Lever<'a> {
         if let Some(known) = self.uncertain.borrow().get(&key) {
             return Ok(*known);
         }
-        let mut command = self.reference;
-        command[input] = q;
-        let quantities = self.machine.uncertain_quantities();
-        let here = felt_by_each(self.machine, &command, &quantities)?;
-        let there = felt_by_each(self.machine, &self.reference, &quantities)?;
-        let mut variance = Command::default();
-        for (a, b) in here.iter().zip(&there) {
-            for (output, v) in variance.iter_mut().enumerate() {
-                let base = if output == input { 0.0 } else { b[output] };
-                *v += (a[output] - base).powi(2);
-            }
-        }
-        let u = variance.map(f64::sqrt);
+        let u = together(&self.spread().functions(input, q)?);
         self.uncertain.borrow_mut().insert(key, u);
         Ok(u)
+    }
+
+    /// One standard uncertainty of what remains at a command beside these functions, by input and output.
+    ///
+    /// # Errors
+    /// As [`Lever::functions`].
+    pub fn u_of_rest(
+        &self,
+        command: &Command,
+        functions: &[(usize, usize)],
+    ) -> Result<Command, CommandFault> {
+        let mut rest = self.spread().whole(command)?;
+        for (input, output) in functions {
+            let each = self.spread().functions(*input, command[*input])?;
+            rest.iter_mut().zip(&each).for_each(|(rest, one)| rest[*output] -= one[*output]);
+        }
+        Ok(together(&rest))
+    }
+
+    fn spread(&self) -> &Spread<'a> {
+        self.spread.get_or_init(|| Spread::of(self.machine, self.reference))
     }
 
     fn whole(&self, input: usize, q: f64, side: f64) -> Result<Command, CommandFault> {
@@ -214,7 +231,7 @@ pub fn sum(command: &Command, added: &Command) -> Command {
 }
 
 /// The rotary part: each axis against its own error motion and its own zero.
-fn rotary(
+pub fn rotary(
     machine: &Machine,
     nominal: &Nominal,
     command: &Command,
@@ -243,32 +260,4 @@ pub fn own_component(axis: &Axis) -> Component {
         AxisKind::Linear => [Component::X, Component::Y, Component::Z][along],
         AxisKind::Rotary => [Component::A, Component::B, Component::C][along],
     }
-}
-
-/// What one standard uncertainty of each quantity changes of the correction, to first order.
-fn felt_by_each(
-    machine: &Machine,
-    command: &Command,
-    quantities: &[String],
-) -> Result<Vec<Command>, CommandFault> {
-    let errors = machine.errors_at(command, &Approach::default())?;
-    let known = machine.uncertainties_at(command, quantities);
-    let nominal = Nominal::of(machine, command);
-    let one = |errors: &ErrorValues| {
-        let mut added = rotary(machine, &nominal, command, errors);
-        let moved = nominal_tip(machine, &sum(command, &added)) - nominal.tip;
-        for (axis, step) in nominal.steps(&(machine.deviation(command, errors).tip_mm + moved)) {
-            added[axis] -= step;
-        }
-        added
-    };
-    let without = one(&errors);
-    let each = (0..quantities.len()).map(|quantity| {
-        let mut with = one(&known.displaced_by(&errors, quantity, 1.0));
-        for (a, b) in with.iter_mut().zip(&without) {
-            *a -= b;
-        }
-        with
-    });
-    Ok(each.collect())
 }

@@ -15,7 +15,8 @@ pub enum Spacing {
     Free,
     /// At equal distances from the first end; straight lines.
     Equal,
-    /// At equal distances from the position 0; the value of the nearest node.
+    /// At equal distances from the position 0; the value of the nearest node. A table that repeats itself has a whole turn
+    /// from 0 on, and the distances divide it.
     Stepped {
         /// Distances are whole multiples of this, counts.
         unit: i64,
@@ -64,6 +65,8 @@ pub enum PlaceFault {
     TooMany(f64),
     /// Half an increment is more than the bound.
     Increment,
+    /// The function is another one after a turn, and the table repeats itself; half the difference in counts.
+    Turns(f64),
     /// The machine's errors are not known there.
     Machine(CommandFault),
 }
@@ -106,6 +109,7 @@ pub fn place(
     match rule.spacing {
         Spacing::Equal => equal(function, &looks, (rule, modulo), bound),
         Spacing::Free => free(&looks, rule, bound),
+        Spacing::Stepped { unit } if modulo => around(function, &looks, (rule, unit), bound),
         Spacing::Stepped { unit } => stepped(function, &looks, (rule, unit), bound),
     }
 }
@@ -162,13 +166,12 @@ fn equal(
     bound: f64,
 ) -> Result<Placed, PlaceFault> {
     let (from, to) = (looks[0].0, looks[looks.len() - 1].0);
-    let turn = (360.0 * PER_UNIT) as i64;
     let mut count = rule.fewest_nodes.max(2);
     let mut best = f64::INFINITY;
     while count <= rule.most_nodes {
         let steps = count as i64 - 1;
         // A turn closes only if the steps divide it.
-        if !modulo || turn % steps == 0 {
+        if !modulo || TURN % steps == 0 {
             let step = ((to - from) / steps).div_euclid(rule.position).max(1) * rule.position;
             let at = (0..count as i64).map(|i| from + i * step);
             let nodes = at
@@ -215,6 +218,64 @@ fn stepped(
         count += if count < ONE_BY_ONE { 1 } else { count / 32 };
     }
     Err(PlaceFault::TooMany(best))
+}
+
+/// A turn, counts.
+const TURN: i64 = 360 * PER_UNIT as i64;
+
+/// Stepped, all around: from 0 to a turn, the last node the same as the first.
+fn around(
+    function: &Function<'_>,
+    looks: &[Look],
+    (rule, unit): (Rule, i64),
+    bound: f64,
+) -> Result<Placed, PlaceFault> {
+    let (from, to) = (looks[0].0, looks[looks.len() - 1].0);
+    let mut turns = 0.0_f64;
+    for (at, [up, down]) in looks.iter().take_while(|(at, _)| at + TURN <= to) {
+        let [later_up, later_down] = function(at + TURN)?;
+        turns = turns.max((later_up - up).abs().max((later_down - down).abs()));
+    }
+    if 0.5 * turns > bound {
+        return Err(PlaceFault::Turns(0.5 * turns));
+    }
+    let mut best = f64::INFINITY;
+    let steps = 1..=rule.most_nodes as i64 - 1;
+    for steps in steps.filter(|steps| TURN % (steps * unit) == 0) {
+        let step = TURN / steps;
+        let value = |at: i64| around_value(function, at.rem_euclid(TURN), (from, to), step);
+        let nodes = (0..=steps)
+            .map(|i| Ok(node(&(i * step, value(i * step)?), rule.increment)))
+            .collect::<Result<Vec<_>, CommandFault>>()?;
+        let nearest = |at: f64, side| stepwise(&nodes, at.rem_euclid(TURN as f64), side);
+        let lost_now = lost(&nearest, looks, best.max(bound));
+        if lost_now <= bound {
+            return Ok(Placed { loss: lost_now, nodes });
+        }
+        best = best.min(lost_now);
+    }
+    Err(PlaceFault::TooMany(best))
+}
+
+/// The function at a place of a turn. Where the travel does not come, the ends hold for one step, and a straight line leads
+/// from the upper one to the lower one.
+fn around_value(
+    function: &Function<'_>,
+    at: i64,
+    (from, to): (i64, i64),
+    step: i64,
+) -> Result<[f64; 2], CommandFault> {
+    // The same place of another turn, the one nearest to 0 that the travel has.
+    let first = at + (from - at).div_euclid(TURN) * TURN;
+    let same = (0..=1 + (to - from) / TURN + 1).map(|turn| first + turn * TURN);
+    if let Some(at) = same.filter(|q| (from..=to).contains(q)).min_by_key(|q| q.abs()) {
+        return function(at);
+    }
+    let beyond = (at - to).rem_euclid(TURN);
+    let gap = TURN - (to - from);
+    let share = ((beyond - step) as f64 / f64::max((gap - 2 * step) as f64, 1.0)).clamp(0.0, 1.0);
+    let (high, low) = (function(to)?, function(from)?);
+    Ok([0, 1].map(|side| high[side] + share * (low[side] - high[side])))
 }
 
 /// The value of the nearest node.

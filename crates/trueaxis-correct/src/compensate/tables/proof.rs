@@ -9,7 +9,6 @@ use super::joints::{Joints, moves_an_axis};
 use super::known::split;
 use super::lever::{Lever, correction, errors_near, placed, sum};
 use super::nominal::Nominals;
-use super::table::Table;
 use super::{Order, TablesError};
 use std::rc::Rc;
 use trueaxis_geometry::Vec3;
@@ -122,11 +121,11 @@ fn left_from(leaves: &Emulation<'_>, zero: Vec3) -> Result<Left, TablesError> {
 }
 
 /// Each error alone: what such content of this control, without rounding and with any number of nodes, would
-/// leave.
+/// leave. `elsewhere`: the functions, by input and output, that are not for the grid.
 pub fn error_losses(
     machine: &Machine,
     reference: &Command,
-    (control, content): (&dyn Control, &Content),
+    (control, content, elsewhere): (&dyn Control, &Content, &[(usize, usize)]),
     order: &Order,
 ) -> Vec<ErrorLoss> {
     let bound_mm = order.bound_mm;
@@ -141,7 +140,8 @@ pub fn error_losses(
         let alone = bare.clone().with_error(index, stated);
         let (chain, rest) = split(&alone, control, order.kinematics);
         let parts = (&chain, &rest);
-        let Ok(best) = Best::of(parts, *reference, (control, content), &nominals) else {
+        let of = (control, content, elsewhere);
+        let Ok(best) = Best::of(parts, *reference, of, &nominals) else {
             continue;
         };
         let (mut before_mm, mut left_mm) = (0.0_f64, 0.0_f64);
@@ -174,6 +174,8 @@ struct Best<'a> {
     rest: &'a Machine,
     control: &'a dyn Control,
     content: &'a Content,
+    /// The functions that are not for the grid.
+    elsewhere: &'a [(usize, usize)],
     reference: Command,
     lever: Lever<'a>,
     carrier: Option<CarrierChain>,
@@ -184,16 +186,17 @@ impl<'a> Best<'a> {
     fn of(
         (chain, rest): (&'a Machine, &'a Machine),
         reference: Command,
-        (control, content): (&'a dyn Control, &'a Content),
+        (control, content, elsewhere): (&'a dyn Control, &'a Content, &'a [(usize, usize)]),
         nominals: &'a Rc<Nominals>,
     ) -> Result<Self, CommandFault> {
         let lever = Lever::sharing(rest, reference, nominals.clone())?;
         let carrier = control.carrier_chain(chain, &Joints::actual(chain));
-        Ok(Self { chain, rest, control, content, reference, lever, carrier, nominals })
+        Ok(Self { chain, rest, control, content, elsewhere, reference, lever, carrier, nominals })
     }
 
     fn added(&self, command: &Command, approach: &Approach) -> Result<Command, CommandFault> {
-        let mut total = self.by_tables(command, approach)?;
+        let written = self.content.tables.iter().map(|t| (t.input, t.output));
+        let mut total = self.by_functions(written, command, approach)?;
         if let Some(grid) = &self.content.grid {
             let mut at = self.reference;
             for side in &grid.sides {
@@ -201,21 +204,24 @@ impl<'a> Best<'a> {
             }
             let still = Approach::default();
             let whole = correction(self.rest, &at, &still)?;
-            let tables = self.by_tables(&at, &still)?;
-            for side in &grid.sides {
-                total[side.axis] += whole[side.axis] - tables[side.axis];
+            let elsewhere = self.by_functions(self.elsewhere.iter().copied(), &at, &still)?;
+            for (i, side) in grid.sides.iter().enumerate() {
+                if grid.values.iter().any(|value| value[i] != 0) {
+                    total[side.axis] += whole[side.axis] - elsewhere[side.axis];
+                }
             }
         }
-        Ok(sum(&total, &self.by_chain(command, approach)?))
+        Ok(sum(&total, &self.by_chain(command)?))
     }
 
-    fn by_chain(&self, command: &Command, approach: &Approach) -> Result<Command, CommandFault> {
+    fn by_chain(&self, command: &Command) -> Result<Command, CommandFault> {
         if let Some(carrier) = &self.carrier {
             return Ok(carrier.added(self.chain, command));
         }
         let joints = Joints::actual(self.chain);
         let errors = |at: &Command| match self.control.knows_links() {
-            true => errors_near(self.chain, at, command, approach),
+            // Such a chain has one value for both directions.
+            true => errors_near(self.chain, at, command, &Approach::default()),
             false => {
                 let mut errors = ErrorValues::default();
                 joints.place(self.chain, &mut errors);
@@ -226,21 +232,16 @@ impl<'a> Best<'a> {
         placed(self.chain, (&nominal, command), &errors, Command::default())
     }
 
-    fn by_tables(&self, command: &Command, approach: &Approach) -> Result<Command, CommandFault> {
+    fn by_functions(
+        &self,
+        functions: impl Iterator<Item = (usize, usize)>,
+        command: &Command,
+        approach: &Approach,
+    ) -> Result<Command, CommandFault> {
         let mut total = Command::default();
-        for input in 0..MAX_AXES {
-            let of = |t: &&Table| t.input == input;
-            let outputs: Vec<usize> =
-                self.content.tables.iter().filter(of).map(|t| t.output).collect();
-            if outputs.is_empty() {
-                continue;
-            }
+        for (input, output) in functions {
             let all = self.lever.functions(input, command[input], approach[input])?;
-            let mut some = Command::default();
-            for output in outputs {
-                some[output] = all[output];
-            }
-            total = sum(&total, &some);
+            total[output] += all[output];
         }
         Ok(total)
     }

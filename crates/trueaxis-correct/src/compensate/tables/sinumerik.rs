@@ -59,6 +59,18 @@ impl Control for Sinumerik {
         }
     }
 
+    /// `$AN_CEC` tables are numbered from 0 in every file; `$AA_ENC_COMP` has one for each axis.
+    fn shares_numbers(
+        &self,
+        written: &Table,
+        (input, output): (usize, usize),
+        directed: bool,
+    ) -> bool {
+        let in_cross = |own: bool, directed: bool| !own || directed;
+        in_cross(written.input == written.output, written.is_directional())
+            && in_cross(input == output, directed)
+    }
+
     fn most_tables(&self) -> usize {
         MOST_TABLES / 2
     }

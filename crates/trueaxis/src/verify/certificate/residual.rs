@@ -84,7 +84,7 @@ impl Residual {
         command: &Command,
         approach: &Approach,
     ) -> Result<Self, Fault> {
-        let plain = machine.errors_at(command, approach)?;
+        let [before, after] = Self::tools(machine, applied, command, approach)?;
         let (at, errors) = applied.go(machine, command, approach)?;
         let here = known.at(machine, &at, approach);
         let slope = |factor| {
@@ -93,11 +93,23 @@ impl Residual {
             let twice = off(1.0) - off(-1.0);
             ToolDeviation { tip_mm: twice.tip_mm * 0.5, axis: twice.axis * 0.5 }
         };
-        Ok(Self {
-            before: ToolDeviation::of(machine, command, &plain, command),
-            after: ToolDeviation::of(machine, &at, &errors, command),
-            slopes: (0..known.factors()).map(slope).collect(),
-        })
+        Ok(Self { before, after, slopes: (0..known.factors()).map(slope).collect() })
+    }
+
+    /// The tool alone, without and with the compensation.
+    ///
+    /// # Errors
+    /// As [`Residual::at`].
+    pub fn tools(
+        machine: &Machine,
+        applied: &AppliedCompensation,
+        command: &Command,
+        approach: &Approach,
+    ) -> Result<[ToolDeviation; 2], Fault> {
+        let plain = machine.errors_at(command, approach)?;
+        let (at, errors) = applied.go(machine, command, approach)?;
+        let before = ToolDeviation::of(machine, command, &plain, command);
+        Ok([before, ToolDeviation::of(machine, &at, &errors, command)])
     }
 
     /// The same relative to another pose, where the instrument was set to zero.
