@@ -32,25 +32,29 @@ fn tools() -> Settings {
     settings
 }
 
-/// G43 adds the length to the end point, whether Z is absolute or incremental, and without Z to the next one: Fanuc and
-/// LSIS XGT manuals. LinuxCNC recalculates its position instead.
+/// G43 adds the length to the end point of its block, whether Z is absolute or incremental: Fanuc and LSIS XGT manuals.
+/// LinuxCNC recalculates its position instead.
 #[test]
 fn an_incremental_end_point_is_longer_by_the_tool() {
     let fanuc = |text: &str| run(text, Fanuc, &tools()).0;
     // The manual's own: G91, H of −4 mm, Z−32 goes to −36, the return of 32 mm with H0 back to where it was.
     assert_eq!(fanuc("G91\nG43 Z-32. H2\nG0 Z32. H0\nM30\n"), [-36.0, 0.0]);
-    for text in [
+    let in_one_block = [
         "G0 Z300.\nG91 G43 H1 Z50.\nZ-10.\nG49 Z20.\nM30\n",
-        "G0 Z300.\nG43 H1\nG91 Z50.\nZ-10.\nG49\nZ20.\nM30\n",
-        "G0 Z300.\nG43 H1\nX1.\nG91\nX2.\nZ50.\nX1. Z-10.\nG49\nX1.\nZ20.\nM30\n",
-        "N1 G0 Z300.\nN2 G91 Z0. G43 H1\nZ25.\nZ25.\nG90 Z240.\nG91 G49 Z20.\nM30\n",
-    ] {
-        let mut heights = fanuc(text);
-        heights.dedup();
-        let last = heights.len() - 1;
-        assert!(heights.contains(&450.0), "{text}{heights:?}");
-        assert_eq!(heights[last], if text.contains("Z240") { 260.0 } else { 360.0 }, "{text}");
+        "G0 Z300.\nG91\nG43 X1. Z50. H1\nX1. Z-10.\nX2. G49 Z20.\nM30\n",
+        "G0 Z300.\nG91 H1 G43 Z25.\nZ25.\nG90 Z340.\nG91 G49 Z20.\nM30\n",
+    ];
+    for text in in_one_block {
+        let (heights, codes) = run(text, Fanuc, &tools());
+        assert!(heights.contains(&450.0) && heights.last() == Some(&360.0), "{text}{heights:?}");
+        assert!(codes.is_empty(), "{codes:?}");
     }
+    // In a later block it counts from where the axis stands, and that is said; not where G90 comes first.
+    let (heights, codes) = run("G0 Z300.\nG43 H1\nX1.\nG91 X1.\nZ50.\nZ1.\nM30\n", Fanuc, &tools());
+    assert_eq!(heights, [300.0, 300.0, 300.0, 350.0, 351.0]);
+    assert_eq!(codes, ["incremental-after-length"]);
+    let (heights, codes) = run("G0 Z300.\nG43 H1\nG90 Z50.\nG91 Z1.\nM30\n", Fanuc, &tools());
+    assert_eq!((heights, codes), (vec![300.0, 150.0, 151.0], vec![]));
     assert_eq!(run("G0 Z300.\nG91 G43 H1 Z50.\nM30\n", Haas, &tools()).0, [300.0, 450.0]);
     assert_eq!(run("G0 Z300\nG91 G43 H1 Z50\nM2\n", LinuxCnc, &tools()).0, [300.0, 350.0]);
     // Absolute words, G53 and reference points owe nothing to a length.

@@ -214,8 +214,8 @@ impl Run<'_> {
         }
     }
 
-    /// Another tool length; the machine stays where it is. On FANUC the change is added to the next word of its axis,
-    /// absolute or incremental.
+    /// Another tool length; the machine stays where it is. On FANUC the change is added to the word of its axis in the
+    /// block, absolute or incremental.
     pub(super) fn set_tool_length(&mut self, length: Position) {
         let before = self.frames.position;
         if self.modes.transforms.tilted {
@@ -229,6 +229,7 @@ impl Run<'_> {
         if self.is_fanuc() && !self.core.modes.tool_centre {
             let due = before.minus(&self.frames.position);
             self.modes.length_due = self.modes.length_due.plus(&due);
+            self.modes.length_due_in = self.core.origin;
         }
         self.core.emit(Event::ToolLength(length));
     }

@@ -10,7 +10,7 @@ use super::{Passage, Run};
 use crate::execution::Settings;
 use crate::execution::mistakes;
 use crate::execution::values::LARGEST;
-use crate::moves::{Axis, AxisSet, CompensationSide, PathControl, Position};
+use crate::moves::{Axis, AxisSet, CompensationSide, Origin, PathControl, Position};
 use crate::rs274::code::{Action, Motion};
 use crate::text::program::{Fault, Item, Program};
 
@@ -43,8 +43,10 @@ pub(super) struct Modes {
     pub length_code: f64,
     /// The number of that length: H.
     pub length_number: Option<u32>,
-    /// How far the tool length has changed since an axis moved: added to its next incremental word (FANUC).
+    /// How far the tool length has changed since an axis moved, and where (FANUC): added to an incremental word of the
+    /// same block.
     pub length_due: Position,
+    pub length_due_in: Origin,
     pub compensation: CompensationSide,
     pub path: PathControl,
     /// P of G64, mm.
@@ -79,6 +81,7 @@ impl Modes {
             length_code: 49.0,
             length_number: None,
             length_due: Position::default(),
+            length_due_in: Origin::default(),
             compensation: CompensationSide::Off,
             path: PathControl::Continuous,
             path_tolerance_mm: 0.0,
@@ -326,17 +329,39 @@ impl Run<'_> {
             let rest = Axis::ALL.into_iter().filter(|axis| *axis != a && *axis != b);
             return self.by_words(target, rest, incremental);
         }
-        let due = std::mem::take(&mut self.modes.length_due);
-        if due != Position::default() {
-            for axis in Axis::ALL {
-                match self.words.axes().contains(axis) {
-                    true if incremental => target[axis] += due[axis],
-                    true => {}
-                    false => self.modes.length_due[axis] = due[axis],
-                }
-            }
+        if self.modes.length_due != Position::default() {
+            self.take_length_due(&mut target, incremental);
         }
         self.by_words(target, Axis::ALL, incremental)
+    }
+
+    /// A change of the tool length is part of an incremental word of its block; of one in a later block controls and
+    /// their parameters decide.
+    fn take_length_due(&mut self, target: &mut Position, incremental: bool) {
+        let due = std::mem::take(&mut self.modes.length_due);
+        let same_block = self.modes.length_due_in == self.core.origin;
+        for axis in Axis::ALL.into_iter().filter(|axis| due[*axis] != 0.0) {
+            if !self.words.axes().contains(axis) {
+                self.modes.length_due[axis] = due[axis];
+            } else if incremental && same_block {
+                target[axis] += due[axis];
+            } else if incremental {
+                let (name, at) = (char::from(axis.letter()), self.core.start);
+                let message = format!(
+                    "{name} is incremental, and the tool length has changed in a block without {name}: it counts from where \
+                     the axis stands; a control that has moved by the length, or moves by it now, is {:.4} mm apart",
+                    due[axis]
+                );
+                let hint = "write the first move after G43, G44 or G49 with G90, or in their block";
+                self.core.warn(
+                    "incremental-after-length",
+                    self.core.origin.line,
+                    at,
+                    message,
+                    hint,
+                );
+            }
+        }
     }
 
     /// The values of the axis words in the place of others, or added to them.

@@ -130,6 +130,7 @@ export const codes: Dictionary = {
   "unknown-tool-name": "Werkzeugname unbekannt",
   "unknown-tool-length": "Werkzeuglänge unbekannt",
   "no-length-number": "Werkzeuglänge ohne Nummer",
+  "incremental-after-length": "Zustellung inkremental nach neuer Werkzeuglänge",
   "unknown-work-offset": "Nullpunktverschiebung unbekannt",
   "offset-of-other-tool": "Länge eines anderen Werkzeugs korrigiert",
   "diameter-not-of-shape": "Durchmesser und Form des Werkzeugs verschieden",

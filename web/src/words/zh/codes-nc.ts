@@ -130,6 +130,7 @@ export const codes: Dictionary = {
   "unknown-tool-name": "未知刀具名称",
   "unknown-tool-length": "刀具长度未知",
   "no-length-number": "刀具长度未给补偿号",
+  "incremental-after-length": "刀具长度改变后使用增量坐标",
   "unknown-work-offset": "工件坐标系偏置未知",
   "offset-of-other-tool": "补偿了另一把刀具的长度",
   "diameter-not-of-shape": "刀具直径与外形不符",
