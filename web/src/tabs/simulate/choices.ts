@@ -81,10 +81,11 @@ export class Choices {
           tr`Edit …`,
         ),
       ),
-      this.labelled(tr`Control`, this.select("control", CONTROLS, tr`automatic`, choice.control)),
       this.labelled(
-        tr`Optional blocks`,
-        this.select("optional", [["off", tr`left out`]], tr`executed`, choice.optional),
+        tr`Control`,
+        this.select("control", CONTROLS, tr`automatic`, choice.control),
+        // Beside it, so that the readout stays in sight on small screens.
+        this.select("optional", [["off", tr`optional blocks left out`]], tr`optional blocks executed`, choice.optional),
       ),
     );
   }

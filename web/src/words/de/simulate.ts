@@ -41,9 +41,8 @@ export const texts: Dictionary = {
   "choose a program": "Programm wählen",
   "{0} (of this computer)": "{0} (von diesem Rechner)",
   "Set-up: work offsets, tools, stock": "Aufspannung: Nullpunktverschiebungen, Werkzeuge, Rohteil",
-  "Optional blocks": "Ausblendsätze",
-  "left out": "ausgeblendet",
-  executed: "ausgeführt",
+  "optional blocks left out": "Ausblendsätze aus",
+  "optional blocks executed": "Ausblendsätze an",
   "Blocks that begin with /: the switch of the control leaves them out":
     "Sätze mit / am Anfang: der Schalter der Steuerung blendet sie aus",
   "Whose program it is": "Für welche Steuerung das Programm ist",
