@@ -13,9 +13,11 @@ use trueaxis_calibrate::plan::{planned, read_plan};
 use trueaxis_geometry::Mat3;
 use trueaxis_input::{Diagnostics, Files};
 use trueaxis_machine::file::Folder;
-use trueaxis_measure::measure::virtual_campaign::{VirtualCampaign, measure, read_virtual};
+use trueaxis_measure::instruments::instrument::SetupError;
+use trueaxis_measure::measure::virtual_campaign::{Truth, VirtualCampaign, measure, read_virtual};
 use trueaxis_measure::measure::{Campaign, Readings, read_campaign};
-use trueaxis_measure::unknowns::fit::fit;
+use trueaxis_measure::unknowns::design::{Design, Unknown};
+use trueaxis_measure::unknowns::fit::{Fit, fit};
 use trueaxis_measure::unknowns::unlisted::Follows;
 use trueaxis_nc::Control;
 
@@ -106,6 +108,16 @@ fn value(found: &Identification, name: &str) -> (f64, f64) {
     of.and_then(|f| f.value).unwrap_or_else(|| panic!("{name} is not stated"))
 }
 
+/// The fit of the readings of a seed.
+fn fitted(campaign: &Campaign, real: &VirtualCampaign, seed: u64) -> (Design, Fit) {
+    let truth = Truth { seed, ..real.truth.clone() };
+    let real = VirtualCampaign { truth, ..real.clone() };
+    let readings = measure(campaign, &real).expect("readings").readings;
+    let design = campaign.design().from_first_readings(&readings);
+    let fit = fit(&design, &readings, &[]).expect("a fit");
+    (design, fit)
+}
+
 /// Rates and errors of many campaigns lie within their 95 % intervals as often as they say; a drift that is not listed
 /// displaces them.
 #[test]
@@ -115,12 +127,7 @@ fn law_a_listed_drift_is_covered() {
     let (campaign, real) = virtually(&exact, 1);
     let (mut inside, mut all, mut rates) = (0_u32, 0_u32, [0_u32; 2]);
     for seed in 0..150 {
-        let truth =
-            trueaxis_measure::measure::virtual_campaign::Truth { seed, ..real.truth.clone() };
-        let real = VirtualCampaign { truth, ..real.clone() };
-        let readings = measure(&campaign, &real).expect("readings").readings;
-        let design = campaign.design().from_first_readings(&readings);
-        let fit = fit(&design, &readings, &[]).expect("a fit");
+        let (design, fit) = fitted(&campaign, &real, seed);
         for k in 0..design.unknowns() {
             let name = design.unknown(k).expect("in range").name();
             let truth = match name.as_str() {
@@ -510,27 +517,23 @@ setup = { socket_drift_z = "-30 um/h", drift_x = "6 um/h" }
 /// How often the errors and rates of many campaigns lie within their 95 % intervals.
 fn share_inside(campaign: &str) -> f64 {
     let (campaign, real) = virtually(campaign, 1);
-    let true_value = |term: Option<&trueaxis_measure::unknowns::term::Term>, name: &str| match term
-    {
-        Some(t) => real.truth.errors.iter().find(|(e, _)| *e == t.error).map(|(_, value)| *value),
-        None => match name {
-            "bar.length_drift" => Some(0.020),
-            "probe.socket_drift_z" => Some(-0.030),
-            "probe.drift_x" => Some(0.006),
-            _ => name.contains("drift").then_some(0.0),
-        },
+    // A bar whose readings drift grows.
+    let grows = |e: SetupError| {
+        if e == SetupError::ZeroDrift { real.disturb.drift_per_hour[0][0] } else { 0.0 }
+    };
+    let made = |e: SetupError| {
+        let names = real.truth.instruments[0].unknowns.iter().map(|u| u.error);
+        names.zip(&real.truth.setups[0]).find(|(error, _)| *error == e).map_or(0.0, |(_, v)| *v)
+    };
+    let true_value = |design: &Design, k: usize| match design.unknown(k).expect("in range") {
+        Unknown::Term(t) => real.truth.errors.iter().find(|(e, _)| *e == t.error).map(|(_, v)| *v),
+        Unknown::Setup(_, u) => u.error.is_rate().then(|| made(u.error) + grows(u.error)),
     };
     let (mut inside, mut all) = (0_u32, 0_u32);
     for seed in 0..100 {
-        let truth =
-            trueaxis_measure::measure::virtual_campaign::Truth { seed, ..real.truth.clone() };
-        let real = VirtualCampaign { truth, ..real.clone() };
-        let readings = measure(&campaign, &real).expect("readings").readings;
-        let design = campaign.design().from_first_readings(&readings);
-        let fit = fit(&design, &readings, &[]).expect("a fit");
+        let (design, fit) = fitted(&campaign, &real, seed);
         for k in (0..design.unknowns()).filter(|k| fit.sight.is_seen[*k]) {
-            let name = design.unknown(k).expect("in range").name();
-            let Some(truth) = true_value(design.terms.get(k), &name) else { continue };
+            let Some(truth) = true_value(&design, k) else { continue };
             let is_in = (fit.values[k] - truth).abs() < 1.96 * fit.covariance[(k, k)].sqrt();
             (inside, all) = (inside + u32::from(is_in), all + 1);
         }

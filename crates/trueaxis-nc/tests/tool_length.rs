@@ -32,12 +32,12 @@ fn tools() -> Settings {
     settings
 }
 
-/// G43 adds the length to the end point of its block, whether Z is absolute or incremental: Fanuc and LSIS XGT manuals.
+/// G43 adds the length to the end point of its block, whether Z is absolute or incremental (LS Electric XGT series manual).
 /// LinuxCNC recalculates its position instead.
 #[test]
-fn an_incremental_end_point_is_longer_by_the_tool() {
+fn law_an_incremental_end_point_is_longer_by_the_tool() {
     let fanuc = |text: &str| run(text, Fanuc, &tools()).0;
-    // The manual's own: G91, H of −4 mm, Z−32 goes to −36, the return of 32 mm with H0 back to where it was.
+    // With H of −4 mm Z−32 goes to −36, and 32 mm with H0 back to where it was.
     assert_eq!(fanuc("G91\nG43 Z-32. H2\nG0 Z32. H0\nM30\n"), [-36.0, 0.0]);
     let in_one_block = [
         "G0 Z300.\nG91 G43 H1 Z50.\nZ-10.\nG49 Z20.\nM30\n",

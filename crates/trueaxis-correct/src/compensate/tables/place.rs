@@ -159,6 +159,15 @@ fn free(looks: &[Look], rule: Rule, bound: f64) -> Result<Placed, PlaceFault> {
     }
 }
 
+/// The nodes of a function at these places.
+fn nodes_at(
+    at: impl Iterator<Item = i64>,
+    value: impl Fn(i64) -> Result<[f64; 2], CommandFault>,
+    increment: f64,
+) -> Result<Vec<Node>, CommandFault> {
+    at.map(|at| Ok(node(&(at, value(at)?), increment))).collect()
+}
+
 fn equal(
     function: &Function<'_>,
     looks: &[Look],
@@ -174,9 +183,7 @@ fn equal(
         if !modulo || TURN % steps == 0 {
             let step = ((to - from) / steps).div_euclid(rule.position).max(1) * rule.position;
             let at = (0..count as i64).map(|i| from + i * step);
-            let nodes = at
-                .map(|at| Ok(node(&(at, function(at)?), rule.increment)))
-                .collect::<Result<Vec<_>, CommandFault>>()?;
+            let nodes = nodes_at(at, function, rule.increment)?;
             let lost = loss(&nodes, looks, best.max(bound));
             if lost <= bound {
                 return Ok(Placed { loss: loss(&nodes, looks, f64::INFINITY), nodes });
@@ -203,10 +210,8 @@ fn stepped(
         let step = (high - low).div_euclid((count as i64 - 2).max(1) * unit).max(1) * unit;
         let first = low.div_euclid(step);
         let last = -(-high).div_euclid(step);
-        let nodes = (first..=last)
-            .map(|i| Ok((i * step, function((i * step).clamp(from, to))?)))
-            .map(|look| Ok(node(&look?, rule.increment)))
-            .collect::<Result<Vec<_>, CommandFault>>()?;
+        let at = (first..=last).map(|i| i * step);
+        let nodes = nodes_at(at, |at| function(at.clamp(from, to)), rule.increment)?;
         let nearest = |at, side| stepwise(&nodes, at, side);
         let lost_now = lost(&nearest, looks, best.max(bound));
         if nodes.len() <= rule.most_nodes {
@@ -244,9 +249,7 @@ fn around(
     for steps in steps.filter(|steps| TURN % (steps * unit) == 0) {
         let step = TURN / steps;
         let value = |at: i64| around_value(function, at.rem_euclid(TURN), (from, to), step);
-        let nodes = (0..=steps)
-            .map(|i| Ok(node(&(i * step, value(i * step)?), rule.increment)))
-            .collect::<Result<Vec<_>, CommandFault>>()?;
+        let nodes = nodes_at((0..=steps).map(|i| i * step), value, rule.increment)?;
         let nearest = |at: f64, side| stepwise(&nodes, at.rem_euclid(TURN as f64), side);
         let lost_now = lost(&nearest, looks, best.max(bound));
         if lost_now <= bound {
