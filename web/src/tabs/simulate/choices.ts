@@ -84,7 +84,7 @@ export class Choices {
       this.labelled(
         tr`Control`,
         this.select("control", CONTROLS, tr`automatic`, choice.control),
-        // Beside it, so that the readout stays in sight on small screens.
+        // In one row with it, so that the readout stays in sight on small screens.
         this.select("optional", [["off", tr`optional blocks left out`]], tr`optional blocks executed`, choice.optional),
       ),
     );
