@@ -277,7 +277,7 @@ fn law_the_errors_of_the_machine_are_within_their_uncertainty() {
                 seen.insert(name);
             }
         }
-        let share = within as f64 / all.max(1) as f64;
+        let share = within as f64 / f64::from(all.max(1));
         assert!(seen.len() >= 5, "{element:?}: {seen:?}");
         assert!((0.93..=0.97).contains(&share), "{element:?}: {share} of {all}");
     }

@@ -6,9 +6,9 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
 use trueaxis::files::noted_disk;
-use trueaxis::files::output::{Guard, Output, no_file_twice};
+use trueaxis::files::output::Guard;
 use trueaxis::input::Diagnostics;
-use trueaxis::questions::{Answer, Content, NewFile, Question, is_finite, may_put};
+use trueaxis::questions::{Answer, Content, NewFile, Question, is_finite, may_put, may_write};
 use trueaxis::report::refused_json;
 use trueaxis_paper::ReportFile;
 use trueaxis_words::{REPORT_LANGUAGES, ReportLanguage};
@@ -82,12 +82,8 @@ impl Door<'_> {
             &mut problems,
         );
         let guard = Guard { read, force: self.force };
-        let report_output = report_file.as_ref().map(|file| Output::file("--report", file.path()));
-        let outputs: Vec<_> =
-            question.outputs(input.as_ref()).into_iter().chain(report_output).collect();
-        outputs.iter().for_each(|output| guard.may_write(output, &mut problems));
-        let paths: Vec<&Path> = outputs.iter().map(|output| output.path.as_path()).collect();
-        no_file_twice(&paths, &mut problems);
+        let report_path = report_file.as_ref().map(ReportFile::path);
+        may_write(question, input.as_ref(), report_path, &guard, &mut problems);
         let answer = match input.filter(|_| !problems.has_errors()) {
             Some(input) => answer(question, input, &mut problems),
             None => None,

@@ -42,23 +42,30 @@ enum PlanCommand {
     ToolSetting(tool_setting::Arguments),
 }
 
+/// The NC programs of a measurement, and the answer.
+#[derive(Args)]
+struct ProgramArguments {
+    /// The control of the NC programs: sinumerik, fanuc, haas, linuxcnc or heidenhain
+    #[arg(long, alias = "dialect", value_name = "NAME", default_value = "sinumerik")]
+    control: String,
+    /// With -o: write programs that are NOT SAFE, too, to look at them
+    #[arg(long)]
+    write_unsafe: bool,
+    #[command(flatten)]
+    door: DoorArguments,
+}
+
 /// The campaign.
 #[derive(Args)]
 struct CampaignArguments {
     /// The campaign: machine, unknowns, instruments, paths
     #[arg(value_name = "CAMPAIGN.toml", required = true)]
     file: Option<PathBuf>,
-    /// The control of the NC programs: sinumerik, fanuc, haas, linuxcnc or heidenhain
-    #[arg(long, alias = "dialect", value_name = "NAME", default_value = "sinumerik")]
-    control: String,
     /// Write one program and one table of poses per path, and the campaign with the chosen poses, into this folder
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
-    /// With -o: write programs that are NOT SAFE, too, to look at them
-    #[arg(long)]
-    write_unsafe: bool,
     #[command(flatten)]
-    door: DoorArguments,
+    program: ProgramArguments,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
@@ -73,9 +80,9 @@ fn run_campaign(arguments: &CampaignArguments) -> Outcome {
     let Some(file) = &arguments.file else { return Outcome::Unusable };
     let question = PlanMeasurement {
         campaign: file.clone(),
-        control: arguments.control.clone(),
+        control: arguments.program.control.clone(),
         output: arguments.output.clone(),
-        write_unsafe: arguments.write_unsafe,
+        write_unsafe: arguments.program.write_unsafe,
     };
-    arguments.door.door().ask(&question)
+    arguments.program.door.door().ask(&question)
 }

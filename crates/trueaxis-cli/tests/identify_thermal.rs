@@ -88,7 +88,7 @@ fn logs_that_cannot_be_used_are_refused_with_their_place() {
     let at = |row: usize, column: usize, value: f64| {
         log(1, move |i, v| {
             if i == row {
-                v[column] = value
+                v[column] = value;
             }
         })
     };

@@ -77,8 +77,7 @@ impl Part {
         let study = self.folder.path("study.toml");
         std::fs::write(&study, parts).expect("written");
         let file = format!(
-            "name = \"part\"\nstudy = {:?}\n[cmm]\npoints = \"points.csv\"\npoint_u = \"0.7 um\"\n{keys}\n",
-            study
+            "name = \"part\"\nstudy = {study:?}\n[cmm]\npoints = \"points.csv\"\npoint_u = \"0.7 um\"\n{keys}\n"
         );
         let path = self.folder.path("part.toml");
         std::fs::write(&path, file).expect("written");

@@ -81,7 +81,7 @@ fn read_instrument(section: &Section<'_>, on: Option<Date>) -> Option<Instrument
     let valid_until = until.as_ref().and_then(dated);
     let serial = section.text("serial").map(str::to_owned);
     let late = |item: &Item<'_>, message: String, hint: &str| {
-        item.warn("calibration-expired", message, hint)
+        item.warn("calibration-expired", message, hint);
     };
     if let (Some(item), Some((text, end)), Some(on)) = (&until, &valid_until, on)
         && *end < on

@@ -80,7 +80,7 @@ fn what_is_read_back_holds_all_around() {
     let (c, a) = (0, 1);
     for k in 0..=144 {
         let mut command = Command::default();
-        command[c] = TAU * (k as f64 / 72.0 - 1.0);
+        command[c] = TAU * (f64::from(k) / 72.0 - 1.0);
         command[a] = (-120.0 + 150.0 * f64::from(k) / 144.0).to_radians();
         let added = emulation.added(&command, &[1.0; 6]);
         // Both carry the workpiece: a table that stands too far gets a positive value. A rising: half of its 20 µrad more.

@@ -14,16 +14,8 @@
 //!
 //! Lengths are mm, angles rad, all in the workpiece frame. The crate knows nothing of machines, programs and drawings.
 
-// Readable forms of the same code; on top of the list of the workspace, as this crate has no hits.
-#![warn(
-    clippy::cast_lossless,
-    clippy::explicit_iter_loop,
-    clippy::if_not_else,
-    clippy::needless_pass_by_value,
-    clippy::redundant_closure_for_method_calls,
-    clippy::semicolon_if_nothing_returned,
-    clippy::uninlined_format_args
-)]
+// On top of the list of the workspace, as this crate has no hits.
+#![warn(clippy::needless_pass_by_value, clippy::redundant_closure_for_method_calls)]
 
 mod cutter;
 mod motion;

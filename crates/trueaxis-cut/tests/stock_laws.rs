@@ -97,7 +97,7 @@ fn law_a_tetrahedron_by_hand() {
         match material {
             [] => assert!(due < 1e-9, "{at}"),
             [[low, high]] => {
-                assert!(low.abs() < 1e-9 && (high - due).abs() < 1e-9, "{at} {material:?}")
+                assert!(low.abs() < 1e-9 && (high - due).abs() < 1e-9, "{at} {material:?}");
             }
             _ => panic!("{at} {material:?}"),
         }

@@ -50,7 +50,7 @@ fn law_a_day_needs_no_more_memory_than_an_hour() {
             (None, _) => first = now,
             // The mock keeps its last 100,000 writes.
             (Some(first), Some(now)) => {
-                assert!(now - first < 24.0, "{first} to {now} MiB in {hour} h")
+                assert!(now - first < 24.0, "{first} to {now} MiB in {hour} h");
             }
             _ => {}
         }

@@ -96,7 +96,7 @@ use trueaxis_machine::heat::TemperatureRun;
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::Step;
 use trueaxis_nc::{
-    Follower, KnownPosition, Outcome, Program, Settings, interpret_on, leaves_motion_out,
+    Follower, FollowingAxes, Outcome, Program, Settings, interpret_on, leaves_motion_out,
 };
 use walk::{Leader, Walk, Walked};
 
@@ -296,15 +296,7 @@ impl Follower for Followed<'_, '_> {
         self.points
     }
 
-    fn place(&self) -> Option<KnownPosition> {
-        Some(self.path.place_now())
-    }
-
-    fn axis_positions(&self) -> Option<KnownPosition> {
-        Some(self.path.axis_positions_now())
-    }
-
-    fn retracted(&self) -> Option<KnownPosition> {
-        self.path.retracted_now()
+    fn axes(&self) -> Option<&dyn FollowingAxes> {
+        Some(&self.path)
     }
 }

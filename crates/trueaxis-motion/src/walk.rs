@@ -18,7 +18,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Command;
 use trueaxis_nc::moves::Step;
-use trueaxis_nc::{Follower, KnownPosition, Outcome};
+use trueaxis_nc::{Follower, FollowingAxes, Outcome};
 
 /// Items of a lot.
 const TOGETHER: usize = 1024;
@@ -134,16 +134,8 @@ impl Follower for Leader<'_> {
         self.points
     }
 
-    fn place(&self) -> Option<KnownPosition> {
-        Some(self.path.place_now())
-    }
-
-    fn axis_positions(&self) -> Option<KnownPosition> {
-        Some(self.path.axis_positions_now())
-    }
-
-    fn retracted(&self) -> Option<KnownPosition> {
-        self.path.retracted_now()
+    fn axes(&self) -> Option<&dyn FollowingAxes> {
+        Some(&self.path)
     }
 }
 

@@ -22,7 +22,7 @@ use trueaxis_input::Diagnostics;
 
 use crate::moves::{Frame, Plane, Position};
 pub(crate) use follower::Alone;
-pub use follower::{Follower, KnownPosition};
+pub use follower::{Follower, FollowingAxes, KnownPosition};
 pub(crate) use language::{Core, Language, Next};
 pub use library::{Library, NoLibrary};
 pub(crate) use modes::{Modes, check_feed};

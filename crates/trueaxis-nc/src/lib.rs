@@ -56,15 +56,8 @@
 //! The crate has no model of the machine: axis positions and times are computed elsewhere. It opens
 //! no file: subprograms are read through a [`Library`].
 
-// Readable forms of the same code; on top of the list of the workspace, as this crate has no hits.
-#![warn(
-    clippy::cast_lossless,
-    clippy::explicit_iter_loop,
-    clippy::if_not_else,
-    clippy::redundant_closure_for_method_calls,
-    clippy::semicolon_if_nothing_returned,
-    clippy::uninlined_format_args
-)]
+// On top of the list of the workspace, as this crate has no hits.
+#![warn(clippy::redundant_closure_for_method_calls)]
 
 mod execution;
 mod heidenhain;
@@ -74,7 +67,7 @@ pub mod sinumerik;
 
 pub use execution::leaves_motion_out;
 pub use execution::{
-    Follower, KnownPosition, Library, NoLibrary, Outcome, OwnCode, Settings, Stop,
+    Follower, FollowingAxes, KnownPosition, Library, NoLibrary, Outcome, OwnCode, Settings, Stop,
 };
 pub use interpret::{interpret, interpret_on};
 pub use trueaxis_blocks::{Control, Dialect, Program, code, dialect, lexer, program};

@@ -6,8 +6,8 @@
 use proptest::prelude::*;
 use trueaxis_nc::moves::{Axis, AxisSet, Position};
 use trueaxis_nc::{
-    Control, Event, Follower, KnownPosition, NoLibrary, Outcome, Program, Settings, Step,
-    interpret_on,
+    Control, Event, Follower, FollowingAxes, KnownPosition, NoLibrary, Outcome, Program, Settings,
+    Step, interpret_on,
 };
 
 /// A machine that ends each move beside where it was sent, so that reading the place is seen.
@@ -27,18 +27,28 @@ impl Follower for Machine {
         self.steps.push(step);
     }
 
-    fn place(&self) -> Option<KnownPosition> {
-        let mut position = self.place;
-        position[Axis::X] += 0.5;
-        self.is_there.then_some(KnownPosition { position, axes: AxisSet(0b01_1111) })
-    }
-
-    fn axis_positions(&self) -> Option<KnownPosition> {
-        self.place()
+    fn axes(&self) -> Option<&dyn FollowingAxes> {
+        self.is_there.then_some(self as &dyn FollowingAxes)
     }
 
     fn points(&self) -> u64 {
         self.steps.len() as u64
+    }
+}
+
+impl FollowingAxes for Machine {
+    fn place(&self) -> KnownPosition {
+        let mut position = self.place;
+        position[Axis::X] += 0.5;
+        KnownPosition { position, axes: AxisSet(0b01_1111) }
+    }
+
+    fn positions(&self) -> KnownPosition {
+        FollowingAxes::place(self)
+    }
+
+    fn retracted(&self) -> Option<KnownPosition> {
+        None
     }
 }
 

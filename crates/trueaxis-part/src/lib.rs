@@ -36,16 +36,8 @@
 //! The crate knows nothing of machines and programs: it states the ideal positions of the tool and
 //! evaluates the deviations from them. It opens no file.
 
-// Readable forms of the same code; on top of the list of the workspace, as this crate has no hits.
-#![warn(
-    clippy::cast_lossless,
-    clippy::explicit_iter_loop,
-    clippy::if_not_else,
-    clippy::needless_pass_by_value,
-    clippy::redundant_closure_for_method_calls,
-    clippy::semicolon_if_nothing_returned,
-    clippy::uninlined_format_args
-)]
+// On top of the list of the workspace, as this crate has no hits.
+#![warn(clippy::needless_pass_by_value, clippy::redundant_closure_for_method_calls)]
 // Numbers decide here: a cast that could change one is checked or has a reason.
 #![warn(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
 

@@ -9,10 +9,10 @@ use crate::verbs;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::{Path, PathBuf};
-use trueaxis::files::output::{Guard, Output, no_file_twice};
+use trueaxis::files::output::Guard;
 use trueaxis::files::{self, noted_disk};
 use trueaxis::input::{Diagnostics, Place};
-use trueaxis::questions::{Answer, Content, NewFile, Question, is_finite, may_put};
+use trueaxis::questions::{Answer, Content, NewFile, Question, is_finite, may_put, may_write};
 use trueaxis_paper::ReportFile;
 use trueaxis_words::ReportLanguage;
 
@@ -123,12 +123,8 @@ fn computed<Q: Question>(question: &Q, asked: &Asked<'_>) -> Computed<Q::Answer>
         &mut problems,
     );
     let guard = Guard { read, force: asked.force };
-    let report_output = report.as_ref().map(|file| Output::file("--report", file.path()));
-    let outputs: Vec<_> =
-        question.outputs(input.as_ref()).into_iter().chain(report_output).collect();
-    outputs.iter().for_each(|output| guard.may_write(output, &mut problems));
-    let paths: Vec<&Path> = outputs.iter().map(|output| output.path.as_path()).collect();
-    no_file_twice(&paths, &mut problems);
+    let report_path = report.as_ref().map(ReportFile::path);
+    may_write(question, input.as_ref(), report_path, &guard, &mut problems);
     let answer = match input.filter(|_| !problems.has_errors()) {
         Some(input) => question.answer(input, &|_| {}, &mut problems),
         None => None,

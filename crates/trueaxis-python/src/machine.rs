@@ -50,6 +50,15 @@ pub fn with_contents(memory: Contents, others: Files) -> (Files, Arc<Mutex<Conte
     (Files::new(Kept { memory, others, read: Arc::clone(&read) }), read)
 }
 
+/// Files as Python has them.
+pub fn to_dict<'py>(py: Python<'py>, files: &Contents) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    for (path, content) in files {
+        dict.set_item(path, PyBytes::new(py, content))?;
+    }
+    Ok(dict)
+}
+
 /// A checked machine, with its tool, at its temperatures.
 #[pyclass(frozen, name = "Machine", module = "trueaxis._native")]
 pub struct NativeMachine {
@@ -159,11 +168,7 @@ impl NativeMachine {
     /// The files that the machine was made from.
     #[getter]
     fn files<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let files = PyDict::new(py);
-        for (path, content) in &self.files {
-            files.set_item(path, PyBytes::new(py, content))?;
-        }
-        Ok(files)
+        to_dict(py, &self.files)
     }
 
     /// What was found in the files.

@@ -1,14 +1,14 @@
 //! A study of many machines as Python holds it: any samples of it, and the answer of all of them.
 
 use crate::answer::NativeAnswer;
-use crate::machine::{Contents, with_contents};
+use crate::machine::{Contents, to_dict, with_contents};
 use crate::options::Options;
 use crate::problems::{listed, one, refused};
 use crate::threads;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict, PyList};
+use pyo3::types::{PyDict, PyList};
 use std::ops::Range;
 use std::sync::Arc;
 use trueaxis::files::disk;
@@ -145,11 +145,7 @@ impl NativeStudy {
     /// The files that the study was made from.
     #[getter]
     fn files<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let files = PyDict::new(py);
-        for (path, content) in &self.files {
-            files.set_item(path, PyBytes::new(py, content))?;
-        }
-        Ok(files)
+        to_dict(py, &self.files)
     }
 
     /// What was found in the files.

@@ -257,7 +257,7 @@ fn suspicions(study: &RtcpStudy, design: &Design, found: &Fit) -> Vec<String> {
                 format!("{} turned the other way", study.machine.axes()[axis].name)
             }
         };
-        format!("χ² would be {:.1e} of what it is if {what}", share)
+        format!("χ² would be {share:.1e} of what it is if {what}")
     };
     inclined(study, found).into_iter().chain(tried.into_iter().take(3).map(words)).collect()
 }

@@ -117,6 +117,24 @@ fn table<'t>(
     Some(Imported { table, ..Imported::default() })
 }
 
+/// Only standards of positioning evaluate positions along one axis, which this file holds.
+fn one_axis_only(
+    standard: Standard,
+    what: &str,
+    file: &str,
+    problems: &mut Diagnostics,
+) -> Option<()> {
+    let positioning =
+        [Standard::Iso230_2, Standard::Gbt17421_2, Standard::Vdi3441, Standard::B5_54];
+    if positioning.contains(&standard) {
+        return Some(());
+    }
+    let message = format!("{what} cannot be evaluated by {}", standard.key());
+    let hint = "it has targets, runs and directions: use iso230-2";
+    problems.error("no-such-readings", Place::whole(file), message, hint);
+    None
+}
+
 /// What the source says of its readings.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 struct About {

@@ -291,8 +291,8 @@ mod tests {
         let (from, to) = (100.0, 700.0);
         let n = 20_000;
         let mean = |f: &dyn Fn(f64) -> f64| {
-            (0..n).map(|i| f(from + (i as f64 + 0.5) * (to - from) / n as f64)).sum::<f64>()
-                / n as f64
+            (0..n).map(|i| f(from + (f64::from(i) + 0.5) * (to - from) / f64::from(n))).sum::<f64>()
+                / f64::from(n)
         };
         let curve = |k: usize| Term::Legendre(k).curve((from, to), 0.003);
         for a in 1..6 {

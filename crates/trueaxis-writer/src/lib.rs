@@ -115,6 +115,13 @@ pub struct Heading<'a> {
     pub tolerance_mm: f64,
 }
 
+impl<'a> Heading<'a> {
+    /// Of a program that measures: in axis positions, which it reaches within a micrometre.
+    pub fn of_measuring(name: &'a str, comments: &'a [&'a str]) -> Self {
+        Self { name, comments, machine_coordinates: true, tolerance_mm: 0.001, ..Self::default() }
+    }
+}
+
 impl Default for Heading<'_> {
     fn default() -> Self {
         Self {

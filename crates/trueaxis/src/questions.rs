@@ -87,7 +87,7 @@ pub use verify::{
     VerifyReadings,
 };
 
-use crate::files::output::{Guard, Output};
+use crate::files::output::{Guard, Output, no_file_twice};
 use crate::files::{self, Part};
 use serde::Serialize;
 use serde_json::Value;
@@ -220,6 +220,21 @@ impl NewFile {
             Content::Folder(written) => files::write_folder(&self.path, &written),
         }
     }
+}
+
+/// Whether the files that a question names, and its report, may be written: what keeps them out goes to `problems`.
+pub fn may_write<Q: Question>(
+    question: &Q,
+    input: Option<&Q::Input>,
+    report: Option<&Path>,
+    guard: &Guard,
+    problems: &mut Diagnostics,
+) {
+    let report = report.map(|path| Output::file("--report", path));
+    let outputs: Vec<Output> = question.outputs(input).into_iter().chain(report).collect();
+    outputs.iter().for_each(|output| guard.may_write(output, problems));
+    let paths: Vec<&Path> = outputs.iter().map(|output| output.path.as_path()).collect();
+    no_file_twice(&paths, problems);
 }
 
 /// Whether files may be put in their places, all of them: what keeps them out goes to `problems`.

@@ -118,7 +118,7 @@ impl Bench<'_> {
                 (to_shown(self.machine, self.axis, *q), self.reading(component, *q) * scale);
             match self.form.is_wide {
                 true => {
-                    rows.push(format!("{shown},{value:.12},{value:.12},{value:.12},{value:.12}"))
+                    rows.push(format!("{shown},{value:.12},{value:.12},{value:.12},{value:.12}"));
                 }
                 false => {
                     for (run, direction) in [(1, "up"), (1, "down"), (2, "up"), (2, "down")] {

@@ -155,13 +155,8 @@ fn written(
         aside: aside(&campaign.machine),
         turned: None,
     };
-    let heading = Heading {
-        name: &name,
-        number: 1,
-        comments: &[&about],
-        machine_coordinates: true,
-        tolerance_mm: 0.001,
-    };
+    let comments = [about.as_str()];
+    let heading = Heading::of_measuring(&name, &comments);
     if let Some(text) = hits.then(|| declare(control)).flatten() {
         write.writer.write(&Block::Text(text))?;
     }

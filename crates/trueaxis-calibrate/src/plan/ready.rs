@@ -228,7 +228,7 @@ fn table_values(text: &str, table: &DeTable<'_>, spans: &mut Vec<Range<usize>>) 
             DeValue::Array(list) => {
                 let sections = list.iter().all(|v| v.get_ref().is_table());
                 spans.extend((!sections).then(|| value.span()));
-                for inner in list.iter() {
+                for inner in list {
                     match inner.get_ref() {
                         DeValue::Table(table) => table_values(text, table, spans),
                         _ => spans.push(inner.span()),

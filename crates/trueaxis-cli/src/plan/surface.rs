@@ -1,6 +1,6 @@
 //! `trueaxis plan probe-surface FILE.toml`: a probing path over a surface.
 
-use crate::door::DoorArguments;
+use super::ProgramArguments;
 use crate::output::Outcome;
 use clap::Args;
 use std::path::PathBuf;
@@ -20,25 +20,19 @@ pub struct Arguments {
     /// The study: machine, surface, spacing, probe
     #[arg(value_name = "FILE.toml")]
     file: PathBuf,
-    /// The control of the NC program: sinumerik, fanuc, haas, linuxcnc or heidenhain
-    #[arg(long, alias = "dialect", value_name = "NAME", default_value = "sinumerik")]
-    control: String,
     /// Write the program and the table of the points into this folder
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
-    /// With -o: write programs that are NOT SAFE, too, to look at them
-    #[arg(long)]
-    write_unsafe: bool,
     #[command(flatten)]
-    door: DoorArguments,
+    program: ProgramArguments,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
     let question = PlanSurface {
         study: arguments.file.clone(),
-        control: arguments.control.clone(),
+        control: arguments.program.control.clone(),
         output: arguments.output.clone(),
-        write_unsafe: arguments.write_unsafe,
+        write_unsafe: arguments.program.write_unsafe,
     };
-    arguments.door.door().ask(&question)
+    arguments.program.door.door().ask(&question)
 }

@@ -1,6 +1,6 @@
 //! `trueaxis plan tool-setting MACHINE.toml SETUP.toml`: tools measured at a tool setter.
 
-use crate::door::DoorArguments;
+use super::ProgramArguments;
 use crate::output::Outcome;
 use clap::Args;
 use std::path::PathBuf;
@@ -27,17 +27,11 @@ pub struct Arguments {
     /// Only these tools, such as 1,2
     #[arg(long, value_name = "NUMBERS")]
     tools: Option<String>,
-    /// The control of the NC program: sinumerik, fanuc, haas, linuxcnc or heidenhain
-    #[arg(long, alias = "dialect", value_name = "NAME", default_value = "sinumerik")]
-    control: String,
     /// Write the program into this folder
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
-    /// With -o: write programs that are NOT SAFE, too, to look at them
-    #[arg(long)]
-    write_unsafe: bool,
     #[command(flatten)]
-    door: DoorArguments,
+    program: ProgramArguments,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
@@ -47,9 +41,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
             setup: arguments.setup.clone(),
             tools: arguments.tools.clone(),
         },
-        control: arguments.control.clone(),
+        control: arguments.program.control.clone(),
         output: arguments.output.clone(),
-        write_unsafe: arguments.write_unsafe,
+        write_unsafe: arguments.program.write_unsafe,
     };
-    arguments.door.door().ask(&question)
+    arguments.program.door.door().ask(&question)
 }

@@ -217,8 +217,7 @@ fn check_layer(study: &AdaptStudy, places: &[MovedPlace], problems: &mut Diagnos
     if high - low > wall.layer_mm {
         let place = Place { file: study.path.name().to_owned(), line: line as usize, column: 1 };
         let message = format!(
-            "nine tenths of the path lie {:.3} to {:.3} mm off the depth that the study says",
-            low, high
+            "nine tenths of the path lie {low:.3} to {high:.3} mm off the depth that the study says"
         );
         let hint = "do the table and the cutter locations count from the same zero?";
         problems.error("other-zero", place, message, hint);

@@ -201,9 +201,9 @@ impl FanucMock {
         self.refused(0).or_else(|status| if is_offset { Err(status) } else { Ok(()) })?;
         for (at, byte) in range.iter().zip(&asked.data) {
             if is_offset {
-                self.change(Change::Byte(*at, *byte))
+                self.change(Change::Byte(*at, *byte));
             } else {
-                self.apply(Change::Byte(*at, *byte))
+                self.apply(Change::Byte(*at, *byte));
             }
         }
         if is_offset {

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::axis::{Command, Travel};
 use trueaxis_machine::tcp::TipControl;
-use trueaxis_nc::KnownPosition;
 use trueaxis_nc::moves::{Axis, AxisSet, Coordinates, Frame, OrientationPath, Position};
+use trueaxis_nc::{FollowingAxes, KnownPosition};
 
 /// The coordinates that the control interpolates linearly in a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,58 +54,6 @@ impl AxisPath<'_> {
         self.axis_of[axis as usize]
     }
 
-    /// The place in the program frame, as the words of the next block would name it.
-    pub fn place_now(&self) -> KnownPosition {
-        KnownPosition {
-            position: self.words_of(&self.command, Coordinates::Program),
-            axes: self.axes(),
-        }
-    }
-
-    /// Where the axes are, as machine coordinates name it.
-    pub fn axis_positions_now(&self) -> KnownPosition {
-        KnownPosition {
-            position: self.words_of(&self.command, Coordinates::Machine),
-            axes: self.axes(),
-        }
-    }
-
-    /// Where the axes are if the tool goes back along its own axis until the first of them reaches
-    /// the end of its travel, as machine coordinates name it, and the axes that move; `None` if one
-    /// of them has no stated travel.
-    ///
-    /// ```text
-    ///     q(s) = q + s·v,    tip(q + v) = tip(q) + axis,    s = min (end_i - q_i) / v_i
-    /// ```
-    pub fn retracted_now(&self) -> Option<KnownPosition> {
-        let control = self.control.as_ref()?;
-        let (tip, along) = control.tip_and_axis(&self.command);
-        let mut next = self.command;
-        if !control.place(tip + along, &mut next) {
-            return None;
-        }
-        let (mut way_mm, mut axes) = (f64::INFINITY, AxisSet::default());
-        for axis in [Axis::X, Axis::Y, Axis::Z] {
-            let Some(index) = self.axis_of(axis) else { continue };
-            let (q, rate) = (self.command[index], next[index] - self.command[index]);
-            if rate.abs() < 1e-9 {
-                continue;
-            }
-            let Travel::Between(from, to) = self.machine.axes()[index].travel else { return None };
-            let end = if rate > 0.0 { to } else { from };
-            way_mm = way_mm.min(((end - q) / rate).max(0.0));
-            axes = axes.with(axis);
-        }
-        if axes == AxisSet::default() {
-            return None;
-        }
-        for axis in [Axis::X, Axis::Y, Axis::Z].into_iter().filter(|a| axes.contains(*a)) {
-            let index = self.axis_of(axis)?;
-            next[index] = self.command[index] + way_mm * (next[index] - self.command[index]);
-        }
-        Some(KnownPosition { position: self.words_of(&next, Coordinates::Machine), axes })
-    }
-
     /// The axes of programs that the machine has.
     fn axes(&self) -> AxisSet {
         let known = Axis::ALL.into_iter().filter(|axis| self.axis_of(*axis).is_some());
@@ -144,5 +92,59 @@ impl AxisPath<'_> {
             }
         };
         direction.try_normalize(0.0).map(Vec3::into)
+    }
+}
+
+impl FollowingAxes for AxisPath<'_> {
+    /// The place in the program frame, as the words of the next block would name it.
+    fn place(&self) -> KnownPosition {
+        KnownPosition {
+            position: self.words_of(&self.command, Coordinates::Program),
+            axes: self.axes(),
+        }
+    }
+
+    /// Where the axes are, as machine coordinates name it.
+    fn positions(&self) -> KnownPosition {
+        KnownPosition {
+            position: self.words_of(&self.command, Coordinates::Machine),
+            axes: self.axes(),
+        }
+    }
+
+    /// Where the axes are if the tool goes back along its own axis until the first of them reaches
+    /// the end of its travel, as machine coordinates name it, and the axes that move; `None` if one
+    /// of them has no stated travel.
+    ///
+    /// ```text
+    ///     q(s) = q + s·v,    tip(q + v) = tip(q) + axis,    s = min (end_i - q_i) / v_i
+    /// ```
+    fn retracted(&self) -> Option<KnownPosition> {
+        let control = self.control.as_ref()?;
+        let (tip, along) = control.tip_and_axis(&self.command);
+        let mut next = self.command;
+        if !control.place(tip + along, &mut next) {
+            return None;
+        }
+        let (mut way_mm, mut axes) = (f64::INFINITY, AxisSet::default());
+        for axis in [Axis::X, Axis::Y, Axis::Z] {
+            let Some(index) = self.axis_of(axis) else { continue };
+            let (q, rate) = (self.command[index], next[index] - self.command[index]);
+            if rate.abs() < 1e-9 {
+                continue;
+            }
+            let Travel::Between(from, to) = self.machine.axes()[index].travel else { return None };
+            let end = if rate > 0.0 { to } else { from };
+            way_mm = way_mm.min(((end - q) / rate).max(0.0));
+            axes = axes.with(axis);
+        }
+        if axes == AxisSet::default() {
+            return None;
+        }
+        for axis in [Axis::X, Axis::Y, Axis::Z].into_iter().filter(|a| axes.contains(*a)) {
+            let index = self.axis_of(axis)?;
+            next[index] = self.command[index] + way_mm * (next[index] - self.command[index]);
+        }
+        Some(KnownPosition { position: self.words_of(&next, Coordinates::Machine), axes })
     }
 }

@@ -241,7 +241,8 @@ fn rows_stay_rows_wherever_their_corners_are() {
         for k in 0..40 * length {
             let (row, along) = (k / length, k % length);
             let x = if row % 2 == 0 { along } else { length - 1 - along };
-            let _ = writeln!(text, "G1 X{x} Y{:.1} Z{:.3}", row as f64 * 0.5, k as f64 * 1e-4);
+            let _ =
+                writeln!(text, "G1 X{x} Y{:.1} Z{:.3}", f64::from(row) * 0.5, f64::from(k) * 1e-4);
         }
         let program = Program::new("rows.nc", text.into_bytes(), Control::Fanuc);
         let (machine, setup) = (machine(), SetUp::default());
@@ -250,7 +251,7 @@ fn rows_stay_rows_wherever_their_corners_are() {
         simulate(&machine, &program, &setup, &options, &mut [&mut recorder]);
         let recording = recorder.finish();
         let drawn = recording.path(0.0, recording.end_s(), 300, Colour::Deviation);
-        assert!(drawn.chord_mm < 0.1 * length as f64, "{length}: {}", drawn.chord_mm);
+        assert!(drawn.chord_mm < 0.1 * f64::from(length), "{length}: {}", drawn.chord_mm);
     }
 }
 

@@ -177,9 +177,9 @@ pub(super) fn time_at(phase: &Phase, sigma: f64) -> f64 {
         let [at, velocity, _] = phase.after(tau);
         let miss = at - sigma;
         if miss > 0.0 {
-            high = tau
+            high = tau;
         } else {
-            low = tau
+            low = tau;
         }
         let next = tau - miss / velocity;
         let next = if next >= low && next <= high { next } else { 0.5 * (low + high) };

@@ -11,21 +11,26 @@ pub trait Follower {
     /// The next step.
     fn take(&mut self, step: Step);
 
-    /// The present place in the program frame, with the frame, tool length and kinematics of the steps so
-    /// far; `None` without a machine.
-    fn place(&self) -> Option<KnownPosition>;
-
-    /// The present axis positions; `None` without a machine.
-    fn axis_positions(&self) -> Option<KnownPosition>;
-
-    /// The axis positions at the end of the travel along the tool axis, away from the tip, and the axes that go there;
-    /// `None` without a machine, or if it states no travel.
-    fn retracted(&self) -> Option<KnownPosition> {
+    /// The axes that follow the steps; `None` without a machine.
+    fn axes(&self) -> Option<&dyn FollowingAxes> {
         None
     }
 
     /// How many points of the path it has made so far: loops that make many end earlier.
     fn points(&self) -> u64;
+}
+
+/// Axes that follow a program and know where they are.
+pub trait FollowingAxes {
+    /// The present place in the program frame, with the frame, tool length and kinematics of the steps so far.
+    fn place(&self) -> KnownPosition;
+
+    /// The present axis positions.
+    fn positions(&self) -> KnownPosition;
+
+    /// The axis positions at the end of the travel along the tool axis, away from the tip, and the axes that go there;
+    /// `None` if the machine states no travel.
+    fn retracted(&self) -> Option<KnownPosition>;
 }
 
 /// A place, and for which axes it is known.
@@ -67,13 +72,5 @@ impl Follower for Alone<'_> {
 
     fn points(&self) -> u64 {
         self.steps
-    }
-
-    fn place(&self) -> Option<KnownPosition> {
-        None
-    }
-
-    fn axis_positions(&self) -> Option<KnownPosition> {
-        None
     }
 }

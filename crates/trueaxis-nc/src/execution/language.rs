@@ -8,7 +8,7 @@ use trueaxis_input::{Diagnostics, Place};
 
 use super::corners::Corners;
 use super::radius::Active;
-use super::{Follower, KnownPosition, Library, Modes, Outcome, Settings, mistakes};
+use super::{Follower, FollowingAxes, KnownPosition, Library, Modes, Outcome, Settings, mistakes};
 use crate::moves::{
     Axis, AxisSet, Coordinates, Event, Frame, Move, MoveKind, Origin, Position, RotaryDirection,
     Step,
@@ -72,7 +72,7 @@ pub(crate) trait Language<'r> {
         self.emit_frame();
         let core = self.core();
         core.is_unread = false;
-        if let Some(known) = core.follower.place() {
+        if let Some(known) = core.follower.axes().map(FollowingAxes::place) {
             let place = core.contour_place(known).over(&self.position());
             self.set_position(place);
         }
@@ -309,13 +309,13 @@ impl<'r> Core<'r> {
             // The machine has not made the last move yet.
             return by_frames;
         }
-        self.follower.axis_positions().map_or(by_frames, |place| place.over(&by_frames))
+        self.follower.axes().map_or(by_frames, |axes| axes.positions().over(&by_frames))
     }
 
     /// The axes of the machine; all of programs without one.
     pub fn axes_of_machine(&self) -> AxisSet {
         let all = || Axis::ALL.into_iter().fold(AxisSet::default(), AxisSet::with);
-        self.follower.axis_positions().map_or_else(all, |place| place.axes)
+        self.follower.axes().map_or_else(all, |axes| axes.positions().axes)
     }
 
     /// The place in the program frame is read again before the next move.
@@ -326,7 +326,7 @@ impl<'r> Core<'r> {
     /// Where the axes are once the tool has gone back along its axis to the end of the travel.
     pub fn retracted(&mut self) -> Option<KnownPosition> {
         self.stop_on_contour();
-        self.follower.retracted()
+        self.follower.axes()?.retracted()
     }
 
     /// Tells the frame if it has changed, and whether it has.

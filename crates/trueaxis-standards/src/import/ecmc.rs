@@ -1,6 +1,6 @@
 //! The Markdown reports of the ECMC motion test scripts: readings and printed parameters.
 
-use super::{Beside, Imported, Printed};
+use super::{Beside, Imported, Printed, one_axis_only};
 use crate::Standard;
 use crate::iso230_2::Quantity;
 use std::borrow::Cow;
@@ -54,17 +54,7 @@ pub(super) fn read(
     text: &str,
     problems: &mut Diagnostics,
 ) -> Option<Imported<'static>> {
-    let positioning =
-        [Standard::Iso230_2, Standard::Gbt17421_2, Standard::Vdi3441, Standard::B5_54];
-    if !positioning.contains(&standard) {
-        let message = format!(
-            "a report of positions along one axis cannot be evaluated by {}",
-            standard.key()
-        );
-        let hint = "it has targets, runs and two directions: use iso230-2";
-        problems.error("no-such-readings", Place::whole(file), message, hint);
-        return None;
-    }
+    one_axis_only(standard, "a report of positions along one axis", file, problems)?;
     let mut rows = Vec::new();
     let mut printed = Vec::new();
     let mut unit = Some("mm");

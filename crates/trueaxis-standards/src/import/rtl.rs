@@ -4,7 +4,7 @@
 //! them). `TARGET DATA::` has the targets, `DEVIATIONS::` a row for each reading: run, number of the target from 1,
 //! deviation. A run is one pass along the axis; its direction follows from the order of its targets.
 
-use super::{Beside, Imported};
+use super::{Beside, Imported, one_axis_only};
 use crate::Standard;
 use std::borrow::Cow;
 use trueaxis_input::{Diagnostics, Place};
@@ -43,14 +43,7 @@ pub(super) fn read(
     text: &str,
     problems: &mut Diagnostics,
 ) -> Option<Imported<'static>> {
-    let positioning =
-        [Standard::Iso230_2, Standard::Gbt17421_2, Standard::Vdi3441, Standard::B5_54];
-    if !positioning.contains(&standard) {
-        let message = format!("a laser file of one axis cannot be evaluated by {}", standard.key());
-        let hint = "it has targets, runs and deviations: use iso230-2";
-        problems.error("no-such-readings", Place::whole(file), message, hint);
-        return None;
-    }
+    one_axis_only(standard, "a laser file of one axis", file, problems)?;
     let (mut head, targets, rows) = parts(file, text, problems)?;
     check_counts(file, &head, &targets, &rows, problems)?;
     let passes = passes(file, &targets, &rows, problems)?;
@@ -175,7 +168,7 @@ fn take(head: &mut Head, section: &str, key: &str, value: &str) {
         ("USER-TEXT", "axis") => head.axis = text(),
         ("USER-TEXT", "date") => head.date = text(),
         ("TARGET DATA", "flags") => {
-            head.flags = value.split_whitespace().map(str::to_owned).collect()
+            head.flags = value.split_whitespace().map(str::to_owned).collect();
         }
         ("TARGET DATA", "target-count") => head.target_count = value.parse().ok(),
         _ => {}

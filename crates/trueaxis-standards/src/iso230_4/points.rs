@@ -318,7 +318,7 @@ mod tests {
         let rows: String = (-45..=405)
             .map(|i| {
                 let r = if (0..=360).contains(&i) { 10.0 } else { 12.0 };
-                format!("{},{r}\n", i)
+                format!("{i},{r}\n")
             })
             .collect();
         let text = format!("angle_deg,radius_mm\n{rows}");

@@ -164,7 +164,7 @@ fn law_uncertainties_cover_what_they_claim() {
             }
         }
     }
-    let table = table as f64 / counted as f64;
+    let table = table as f64 / f64::from(counted);
     let offset = offset as f64 / (2 * campaigns) as f64;
     assert!((0.93..=0.97).contains(&table), "table: {table}");
     assert!((0.93..=0.97).contains(&offset), "offset: {offset}");

@@ -224,13 +224,8 @@ impl<'a> Written<'a> {
         let mut writer = Writer::new(of.control);
         let about = format!("{}, stylus {}", of.study.name, of.stylus.name);
         let name = log.stem.replace('-', "_");
-        let heading = Heading {
-            name: &name,
-            number: 1,
-            comments: &[&about],
-            machine_coordinates: true,
-            tolerance_mm: 0.001,
-        };
+        let comments = [about.as_str()];
+        let heading = Heading::of_measuring(&name, &comments);
         if let Some(text) = declare(of.control) {
             writer.write(&Block::Text(text))?;
         }

@@ -29,7 +29,7 @@ pub(super) fn check_rows(study: &HitsStudy, problems: &mut Diagnostics) {
     }
     let mut due = 1;
     let mut lost = Vec::new();
-    for hit in study.log.hits.iter() {
+    for hit in &study.log.hits {
         let place = hit.place.clone();
         if hit.hit < due {
             let message =

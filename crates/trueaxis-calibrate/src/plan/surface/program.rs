@@ -142,13 +142,8 @@ fn written(
     is_stand_in: bool,
 ) -> Result<Vec<u8>, ProgramError> {
     let about = format!("{} points on {}", poses.len(), study.machine.name());
-    let heading = Heading {
-        name: &study.name,
-        number: 1,
-        comments: &[&about],
-        machine_coordinates: true,
-        tolerance_mm: 0.001,
-    };
+    let comments = [about.as_str()];
+    let heading = Heading::of_measuring(&study.name, &comments);
     let log = TouchLog { machine: &study.machine, control, is_stand_in };
     let mut touches = Touches { study, control, log, writer: Writer::new(control), last: None };
     if let Some(text) = declare(control) {

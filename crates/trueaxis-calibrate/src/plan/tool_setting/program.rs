@@ -57,16 +57,6 @@ pub fn setting_program(setting: &ToolSetting, control: Control) -> Result<Vec<u8
     Ok(p.writer.finish())
 }
 
-fn heading<'a>(comments: &'a [&'a str]) -> Heading<'a> {
-    Heading {
-        name: "TOOL_SETTING",
-        number: 1,
-        comments,
-        machine_coordinates: true,
-        tolerance_mm: 0.001,
-    }
-}
-
 struct Written<'a> {
     setting: &'a ToolSetting,
     control: Control,
@@ -87,7 +77,8 @@ impl Written<'_> {
             Control::LinuxCnc => "writes length and radius into the tool table",
             _ => "writes wear: the geometry of each tool must be its nominal length and radius",
         };
-        self.writer.write(&Block::Start(&heading(&[&about, wear])))?;
+        self.writer
+            .write(&Block::Start(&Heading::of_measuring("TOOL_SETTING", &[&about, wear])))?;
         let text = "SETTER CLEAN, SPINDLE WARM, ALL CLEAR";
         Ok(self.writer.write(&Block::Stop { optional: false, message: Some(text) })?)
     }
@@ -303,7 +294,7 @@ fn by_cycles(setting: &ToolSetting) -> Result<Vec<u8>, ProgramError> {
         "Q5: 0 in tolerance, 1 worn, 2 broken",
         "HEIGHT counts from the active datum: it must be the machine zero",
     ];
-    writer.write(&Block::Start(&heading(&comments)))?;
+    writer.write(&Block::Start(&Heading::of_measuring("TOOL_SETTING", &comments)))?;
     // The cycles write Q5; before the first one it has no value.
     writer.write(&Block::Text("FN 0: Q5 = +0"))?;
     let z = setting.axes[2];

@@ -16,7 +16,7 @@ use trueaxis_motion::axis_path::{AxisPath, Fault};
 use trueaxis_motion::{Node, PathStep};
 use trueaxis_nc::lexer::Token;
 use trueaxis_nc::moves::{AxisSet, Event, Move, MoveKind, Step};
-use trueaxis_nc::{Follower, KnownPosition};
+use trueaxis_nc::{Follower, FollowingAxes};
 
 /// Places of a stretch: enough that a batch pays, few enough to stay in the cache.
 const NODES: usize = 1024;
@@ -223,15 +223,7 @@ impl Follower for Gather<'_> {
         self.points
     }
 
-    fn place(&self) -> Option<KnownPosition> {
-        Some(self.nominal.place_now())
-    }
-
-    fn axis_positions(&self) -> Option<KnownPosition> {
-        Some(self.nominal.axis_positions_now())
-    }
-
-    fn retracted(&self) -> Option<KnownPosition> {
-        self.nominal.retracted_now()
+    fn axes(&self) -> Option<&dyn FollowingAxes> {
+        Some(&self.nominal)
     }
 }

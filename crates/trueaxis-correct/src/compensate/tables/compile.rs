@@ -251,7 +251,7 @@ fn candidate(
     let (mut largest, mut certain) = (0.0_f64, machine.joint().is_some());
     let half = 0.5 * control.rule().increment * count_out;
     for i in 0..=GLANCES {
-        let at = from + ((to - from) as i128 * i as i128 / GLANCES as i128) as i64;
+        let at = from + (i128::from(to - from) * i128::from(i) / i128::from(GLANCES)) as i64;
         let size = function(at)?.map(f64::abs).into_iter().fold(0.0, f64::max) * count_out;
         if size > order.limit(moved.kind) {
             return Err(TablesError::TooLarge {

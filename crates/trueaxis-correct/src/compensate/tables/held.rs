@@ -110,7 +110,7 @@ fn varies(
     let ((from, to), _) = range(&machine.axes()[input], control)?;
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for i in 0..=GLANCES {
-        let at = from + ((to - from) as i128 * i as i128 / GLANCES as i128) as i64;
+        let at = from + (i128::from(to - from) * i128::from(i) / i128::from(GLANCES)) as i64;
         let q = at as f64 * super::table::count_of(machine, input);
         let value = counts(machine, output, lever.functions(input, q, 0.0)?[output]);
         (low, high) = (low.min(value), high.max(value));

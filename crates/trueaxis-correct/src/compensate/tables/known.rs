@@ -173,7 +173,8 @@ fn function(
     // Of errors that are known together the u of one says nothing.
     let (mut largest, mut certain) = (0.0_f64, machine.joint().is_some());
     for i in 0..=GLANCES {
-        let at = ends.0 + ((ends.1 - ends.0) as i128 * i as i128 / GLANCES as i128) as i64;
+        let at =
+            ends.0 + (i128::from(ends.1 - ends.0) * i128::from(i) / i128::from(GLANCES)) as i64;
         let size = value(at)?.abs() * count;
         largest = largest.max(size);
         certain |= size > u_of_link(machine, (body, error.component), &command(at), frame)?;

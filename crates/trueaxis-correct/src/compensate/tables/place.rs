@@ -97,7 +97,7 @@ pub fn place(
     if 0.5 * rule.increment > bound {
         return Err(PlaceFault::Increment);
     }
-    let place = |i: i64| from + ((to - from) as i128 * i as i128 / LOOKS as i128) as i64;
+    let place = |i: i64| from + (i128::from(to - from) * i128::from(i) / i128::from(LOOKS)) as i64;
     // What lies between the ends, where the control can have a node.
     let places = (0..=LOOKS).map(|i| match i {
         0 | LOOKS => place(i),

@@ -48,7 +48,7 @@ pub fn lines(
         let ((from, to), _) = range(&warm.axes()[axis], control)?;
         let mut looks = Vec::new();
         for i in 0..=LOOKS {
-            let at = from + ((to - from) as i128 * i as i128 / LOOKS as i128) as i64;
+            let at = from + (i128::from(to - from) * i128::from(i) / i128::from(LOOKS)) as i64;
             let q = at as f64 * count_of(warm, axis);
             let grown = hot.functions(axis, q, 0.0)?[axis] - still.functions(axis, q, 0.0)?[axis];
             looks.push((at as f64, counts(warm, axis, grown)));

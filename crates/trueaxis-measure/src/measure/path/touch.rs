@@ -50,7 +50,7 @@ pub fn hits(free: FreeSide, tool_axis: Vec3, count: usize) -> Vec<Vec3> {
     let wanted = count - 1;
     match blocked {
         None => {
-            sides.extend((0..wanted).map(|k| at(std::f64::consts::TAU * k as f64 / wanted as f64)))
+            sides.extend((0..wanted).map(|k| at(std::f64::consts::TAU * k as f64 / wanted as f64)));
         }
         // Free from −last to +last about the side away from the stem.
         Some(first) => {
@@ -98,7 +98,7 @@ pub(super) fn read_touch(
     let listed = section.get("poses").is_some();
     let mut stations = Readings::default();
     let (mut kept, mut left) = (0, 0);
-    for rotary in poses.commands.iter() {
+    for rotary in &poses.commands {
         if kept == wanted {
             break;
         }
