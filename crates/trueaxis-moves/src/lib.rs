@@ -7,6 +7,9 @@
 //!   the program frame to it;
 //! - *machine coordinates*: axis positions from machine zero ([`Coordinates::Machine`]).
 
+pub mod chain;
+pub mod turns;
+
 use std::fmt;
 use std::ops::{Index, IndexMut, Range};
 

@@ -4,7 +4,6 @@ pub(crate) mod arcs;
 pub(crate) mod corners;
 pub(crate) mod drilling;
 mod follower;
-pub(crate) mod frames;
 mod language;
 mod library;
 pub(crate) mod milling;

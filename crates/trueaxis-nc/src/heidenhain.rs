@@ -20,7 +20,6 @@ mod back_boring;
 mod cycles;
 mod drilling;
 mod flow;
-mod frames;
 mod functions;
 mod milling;
 mod path;
@@ -40,6 +39,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
 use crate::execution::{Core, Language, Next, Outcome};
+use crate::moves::chain::TransformationChain;
 use crate::moves::{
     Axis, CompensationSide, Coordinates, Event, Move, MoveKind, OrientationPath, Position,
     RotaryDirection,
@@ -47,7 +47,6 @@ use crate::moves::{
 use crate::text::program::{Fault, Program, fault};
 use cycles::Cycle;
 use flow::{Activation, Labels};
-use frames::Frames;
 use line::{Cursor, Line};
 use trueaxis_blocks::klartext as line;
 use variables::Variables;
@@ -85,7 +84,7 @@ struct Run<'r> {
     stack: Vec<Activation>,
     selected: Option<String>,
     variables: Variables,
-    frames: Frames,
+    frames: TransformationChain,
     modes: Modes,
     /// Full turns of A, B and C that the display does not show (M94, M126), degrees.
     turned: [f64; 3],
@@ -174,7 +173,7 @@ impl<'r> Run<'r> {
             stack: vec![Activation::main()],
             selected: None,
             variables: Variables::default(),
-            frames: Frames::new(settings.work_offsets.get(&1)),
+            frames: TransformationChain::new(settings.work_offsets.get(&1)),
             modes,
             turned: [0.0; 3],
             pole: None,

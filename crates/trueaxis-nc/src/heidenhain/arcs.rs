@@ -4,9 +4,9 @@ use trueaxis_contour::lead::Lead;
 
 use super::words::Words;
 use super::{Run, fault};
-use crate::execution::frames::unit;
 use crate::execution::radius::Approach;
 use crate::execution::{arcs, mistakes};
+use crate::moves::turns::unit;
 use crate::moves::{Arc, Axis, CompensationSide, MoveKind, Position};
 use crate::text::program::Fault;
 

@@ -2,14 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use super::frames::Transformation;
 use super::line::Cursor;
 use super::milling::MILLING;
 use super::variables::{StoredValue, Variable};
 use super::words::Words;
 use super::{Language, Run, fault};
+use crate::execution::Next;
 use crate::execution::mistakes;
-use crate::execution::{Next, frames};
+use crate::moves::chain::Transformation;
+use crate::moves::turns;
 use crate::moves::{Axis, Event, Frame, MoveKind, PathControl};
 use crate::text::program::Fault;
 
@@ -143,7 +144,7 @@ impl Run<'_> {
             Some(_) => before + self.value(c)?,
             None => return Err(c.unknown()),
         };
-        let turn = Transformation::Rotation(frames::about(third as usize, angle));
+        let turn = Transformation::Rotation(turns::about(third as usize, angle));
         self.transform(turn, angle == 0.0, at)
     }
 
@@ -309,7 +310,7 @@ impl Run<'_> {
         if self.frames.set_preset(frame).is_none() {
             return Err(mistakes::flat_frame(at));
         }
-        let rotation_deg = frames::rotation_deg(&frame);
+        let rotation_deg = turns::rotation_deg(&frame);
         self.core.emit(Event::WorkOffset { index, offset: frame.shift, rotation_deg });
         self.emit_frame();
         Ok(())

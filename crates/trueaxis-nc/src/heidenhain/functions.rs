@@ -2,7 +2,7 @@
 
 use super::words::{FunctionCall, Words};
 use super::{Run, fault};
-use crate::execution::frames::unit;
+use crate::moves::turns::unit;
 use crate::moves::{
     Axis, AxisSet, Coolant, Coordinates, Event, Feed, FeedMode, Move, MoveKind, OrientationPath,
     Position, SpindleDirection,

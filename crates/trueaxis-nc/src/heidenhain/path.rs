@@ -6,8 +6,8 @@ use super::words::{FeedWord, Words};
 use super::{Language, Run, fault};
 use crate::execution::Next;
 use crate::execution::corners::{Corner, is_size};
-use crate::execution::frames::unit;
 use crate::execution::mistakes;
+use crate::moves::turns::unit;
 use crate::moves::{
     Axis, AxisSet, Coordinates, Feed, FeedMode, MoveKind, Position, RotaryDirection,
 };

@@ -1,11 +1,11 @@
 //! PLANE and cycle 19: the tilted working plane.
 
-use super::frames::Transformation;
 use super::line::Cursor;
 use super::variables::{StoredValue, Variable};
 use super::words::{FeedWord, split_address};
 use super::{Language, Run, fault};
-use crate::execution::frames::{about, cross, dot, from_axes, minus, unit};
+use crate::moves::chain::Transformation;
+use crate::moves::turns::{about, cross, dot, from_axes, minus, unit};
 use crate::moves::{Axis, Branch, Event, Frame, MoveKind};
 use crate::text::program::Fault;
 

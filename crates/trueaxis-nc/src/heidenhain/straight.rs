@@ -3,8 +3,8 @@
 use trueaxis_blocks::digits::short_number;
 
 use super::{Activation, Run};
-use crate::execution::frames::unit;
 use crate::execution::straight::{Line, Measure, line_after_line, read_line};
+use crate::moves::turns::unit;
 use crate::moves::{AxisSet, CompensationSide, Feed, FeedMode, Move, MoveKind, Origin, Position};
 
 impl Run<'_> {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::execution::frames::rotation_deg;
+use crate::moves::turns::rotation_deg;
 use crate::moves::{Axis, Frame, Position};
 
 /// One work offset: origin and turn, as a rule about Z.

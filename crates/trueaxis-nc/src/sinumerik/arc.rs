@@ -4,8 +4,8 @@ use super::tables::{Motion, Name};
 use super::words::{Mode, Words};
 use super::{Run, fault};
 use crate::execution::arcs::{self, end_tangent};
-use crate::execution::frames::{cross, dot, minus, xyz};
 use crate::execution::mistakes;
+use crate::moves::turns::{cross, dot, minus, xyz};
 use crate::moves::{Arc, MoveKind, Position, SpatialArc};
 use crate::text::program::Fault;
 

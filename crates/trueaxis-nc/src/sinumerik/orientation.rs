@@ -3,8 +3,8 @@
 use super::Run;
 use super::tables::{Angles, Name, OrientationMode};
 use super::words::Words;
-use crate::execution::frames::turns;
 use crate::execution::mistakes;
+use crate::moves::turns::turns;
 use crate::moves::{Axis, Cone, Event, OrientationPath};
 use crate::text::program::Fault;
 

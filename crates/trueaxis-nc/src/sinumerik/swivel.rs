@@ -2,8 +2,8 @@
 
 use super::values::Value;
 use super::{Language, Run, fault, transform};
-use crate::execution::frames::{cross, from_axes, unit};
 use crate::execution::mistakes;
+use crate::moves::turns::{cross, from_axes, unit};
 use crate::moves::{Axis, Branch, Event, Frame, Move, MoveKind, PathControl, Position};
 use crate::text::program::Fault;
 

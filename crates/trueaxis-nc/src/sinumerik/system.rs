@@ -5,9 +5,9 @@ use super::chain::Part;
 use super::reader::Reader;
 use super::values::Value;
 use super::{Language, Run, fault};
-use crate::execution::frames;
 use crate::execution::mistakes;
 use crate::execution::values::finite;
+use crate::moves::turns;
 use crate::moves::{Axis, Event, Frame};
 use crate::text::program::Fault;
 
@@ -209,7 +209,7 @@ impl Run<'_> {
     /// Tells the work offset that is active now.
     pub(super) fn emit_offset(&mut self) {
         let frame = self.chain.settable;
-        let rotation_deg = frames::rotation_deg(&frame);
+        let rotation_deg = turns::rotation_deg(&frame);
         let (index, offset) = (self.chain.active, frame.shift);
         self.core.emit(Event::WorkOffset { index, offset, rotation_deg });
     }

@@ -1,7 +1,7 @@
 //! Turns, scales and mirrors as frames.
 
-use crate::execution::frames::{about, cross, turns};
 use crate::execution::mistakes;
+use crate::moves::turns::{about, cross, turns};
 use crate::moves::{Axis, Frame, Position};
 use crate::text::program::Fault;
 

@@ -6,8 +6,8 @@
 //! "Functions to simplify programming": mirror is applied to the written place first, then scale,
 //! then rotation; the tilted plane holds all of them.
 
-use crate::execution::frames::{about, cross, from_axes, point, turns};
 use crate::execution::mistakes;
+use crate::moves::turns::{about, cross, from_axes, point, turns};
 use crate::moves::{Axis, Branch, Event, Frame, MoveKind, Plane, Position};
 use crate::rs274::code::Action;
 use crate::rs274::{Language, Run, fault};

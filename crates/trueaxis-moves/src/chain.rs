@@ -1,10 +1,11 @@
-//! Where the program frame lies: preset, then shifts, mirrors, turns, scales and the tilted plane.
+//! Where the program frame lies: preset, then shifts, mirrors, turns, scales and the tilted plane, in the order of their
+//! programming. The names are those of HEIDENHAIN.
 
-use crate::moves::{Frame, Position};
+use crate::{Frame, Position};
 
 /// One transformation; what was programmed first lies outermost.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Transformation {
+pub enum Transformation {
     /// Cycle 7, TRANS DATUM.
     Shift(Position),
     /// Cycle 8, TRANS MIRROR: which axes.
@@ -50,16 +51,18 @@ impl Transformation {
 /// were switched on; a new value of one that is on takes the place of the old value, but only
 /// after the tilt if it was programmed after the tilt.
 #[derive(Debug, Clone)]
-pub(super) struct Frames {
+pub struct TransformationChain {
     /// The present place in the program frame, mm and degrees.
     pub position: Position,
+    /// The preset: where the workpiece is.
     pub preset: Frame,
     chain: Vec<Transformation>,
     /// The product, kept because every move asks for it.
     whole: Frame,
 }
 
-impl Frames {
+impl TransformationChain {
+    /// With a preset, the machine at its zero.
     pub fn new(preset: Option<&Frame>) -> Self {
         let preset = preset.copied().unwrap_or(Frame::IDENTITY);
         let mut frames =
@@ -71,6 +74,7 @@ impl Frames {
         frames
     }
 
+    /// From the program frame to the basic frame.
     pub fn frame(&self) -> Frame {
         self.whole
     }
@@ -81,6 +85,7 @@ impl Frames {
         flat.fold(self.preset, |f, t| f.after(&t.frame()))
     }
 
+    /// Whether a plane is tilted.
     pub fn is_tilted(&self) -> bool {
         self.chain.iter().any(|t| matches!(t, Transformation::Tilt(_)))
     }
@@ -185,21 +190,21 @@ impl Frames {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::execution::frames::about;
+    use crate::turns::about;
 
     #[test]
     fn what_is_programmed_first_lies_outside() {
         let mut shift = Position::default();
         shift.0[0] = 10.0;
         let turn = Transformation::Rotation(about(2, 90.0));
-        let mut frames = Frames::new(None);
+        let mut frames = TransformationChain::new(None);
         frames.set(Transformation::Shift(shift), false).unwrap();
         frames.set(turn.clone(), false).unwrap();
         // Shift, then turn: (1, 0) lies at (10, 0) + (0, 1).
         let mut one = Position::default();
         one.0[0] = 1.0;
         assert_eq!(frames.frame().place(&one).0[..2], [10.0, 1.0]);
-        let mut other = Frames::new(None);
+        let mut other = TransformationChain::new(None);
         other.set(turn, false).unwrap();
         other.set(Transformation::Shift(shift), false).unwrap();
         // Turn, then shift: (11, 0) turned is (0, 11).
@@ -208,7 +213,7 @@ mod tests {
 
     #[test]
     fn the_axes_stay_when_frames_change() {
-        let mut frames = Frames::new(None);
+        let mut frames = TransformationChain::new(None);
         frames.position.0[..3].copy_from_slice(&[3.0, 4.0, 5.0]);
         frames.set(Transformation::Tilt(about(0, 90.0)), false).unwrap();
         // Rx(90)·p = (3, 4, 5): p = (3, 5, -4).
