@@ -15,7 +15,7 @@ const OTHER_WORDS: &str = "monte-carlo latin-hypercube opc-ua sign-and-encrypt p
     laser-line least-squares length-tracker linuxcnc-trims no-referrer no-store not-a-knot on-axis on-cone \
     over-fitted probe-ball referrer-policy ring-corrected ring-hits surface-hits z-datum z-datum-corrected same-origin sans-serif save-made set-error set-up simulation-at \
     compensate-adapt compensate-program compensate-tables compensate-targets compensate-values measure-check measure-sheet new-machine readings-columns readings-text \
-    simulation-block simulation-curves simulation-path simulation-source simulation-stock small-angle stages-contradict instruments-contradict below-noise table-table \
+    simulation-block simulation-curves simulation-path simulation-source simulation-stock small-angle stages-contradict instruments-contradict below-noise set-up-contradicted table-table \
     test-piece three-axis head-table touch-probe-ball touch-probe-face turns-with-axis utf-8 what-if w-offset \
     x-content-type-options x-rot x-rot-point x-www-browser x-www-form-urlencoded \
     axis-limit inverse-time kebab-case serve-socket-request xdg-open xyzac-trt-kins xyzbc-trt-kins y-rot y-rot-point z-offset z-rot-point numbers";

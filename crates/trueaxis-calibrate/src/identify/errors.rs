@@ -21,6 +21,7 @@ use super::score::{Residuals, Score, repeatability};
 use super::selection;
 use super::selection::{Candidates, Selection, Sums, parts_by_place, select};
 use super::stages::{Sequence, Value, compare, go_through};
+use super::verdict::{Verdict, below_noise, set_up};
 use crate::plan::Unobservable;
 use nalgebra::DVector;
 use trueaxis_geometry::statistics::chi_square_above;
@@ -32,15 +33,11 @@ use trueaxis_measure::unknowns::confusion::Confusion;
 use trueaxis_measure::unknowns::design::{Design, Unknown};
 use trueaxis_measure::unknowns::determined::Determined;
 use trueaxis_measure::unknowns::fit::{Fit, FitError, fit_by, linear_residuals};
+use trueaxis_measure::unknowns::set_up::SetUpDeviation;
 use trueaxis_measure::unknowns::unlisted::Follows;
 
 /// The residual from which on the conventions are checked unasked, in units of the noise.
 const SUSPICIOUS: f64 = 5.0;
-/// Readings that fit to a smaller part of the noise without any error of the machine have another unit, or another noise.
-pub const BELOW_NOISE: f64 = 0.1;
-/// Fewer degrees of freedom fit well by chance. Unit: 1.
-pub const LEAST_FREEDOM: f64 = 5.0;
-
 /// An unknown and what was found of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Found {
@@ -81,118 +78,6 @@ impl Found {
     }
 }
 
-/// What became of it.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Verdict {
-    /// The residual on places that were held out is what the instrument repeats to.
-    Explained,
-    /// It is better on its own readings than on others.
-    OverFitted,
-    /// The residual is a smooth function of X, Y, Z; the share of its squares.
-    FollowsPlaces(f64),
-    /// The residual turns with a rotary axis: its letter and the share of the squares.
-    TurnsWith(String, f64),
-    /// The residual looks like a location error that is not listed; the share of the squares.
-    Arrangement(f64),
-    /// The residual depends on the direction of approach; the share of the squares.
-    Reverses(f64),
-    /// The residual grows with time; the share of the squares.
-    Drifts(f64),
-    /// So many numbers do not belong to the others.
-    GrossReadings(usize),
-    /// The residual follows none of these.
-    Unexplained,
-    /// A stage contradicts the stages before it; its name.
-    StagesContradict(String),
-    /// An instrument contradicts the others; its name.
-    InstrumentsContradict(String),
-    /// Without any error of the machine the readings keep to this part of the noise.
-    BelowNoise(f64),
-}
-
-impl Verdict {
-    /// Whether the model may be trusted.
-    pub fn is_good(&self) -> bool {
-        *self == Self::Explained
-    }
-
-    /// In words.
-    pub fn words(&self) -> String {
-        match self {
-            Self::Explained => "this model explains what can be explained".to_owned(),
-            Self::OverFitted => {
-                "this model is over-fitted: measure at more places, or seek less".to_owned()
-            }
-            Self::FollowsPlaces(share) => format!(
-                "more remains than noise, and it follows machine XYZ (volumetric): {:.0} % of it",
-                share * 100.0
-            ),
-            Self::TurnsWith(axis, share) => {
-                format!(
-                    "more remains than noise, and it turns with {axis}: {:.0} % of it",
-                    share * 100.0
-                )
-            }
-            Self::Arrangement(share) => format!(
-                "more remains than noise, and {:.0} % of it looks like a location error that is not \
-                 listed: location = \"minimal\" lists all",
-                share * 100.0
-            ),
-            Self::Reverses(share) => format!(
-                "more remains than noise, and {:.0} % of it depends on the direction of approach",
-                share * 100.0
-            ),
-            Self::Drifts(share) => format!(
-                "more remains than noise, and {:.0} % of it drifts with time: return to the first \
-                 station, warm the machine up",
-                share * 100.0
-            ),
-            Self::GrossReadings(1) => {
-                "one number does not belong to the others: see the outliers, \
-                                       correct it or delete its row"
-                    .to_owned()
-            }
-            Self::GrossReadings(count) => format!(
-                "{count} numbers do not belong to the others: see the outliers, correct them or delete \
-                 their rows"
-            ),
-            Self::Unexplained => {
-                "more remains than noise, and it follows neither the axes nor the \
-                                  time: look at the instrument, at its noise, at conventions"
-                    .to_owned()
-            }
-            Self::StagesContradict(stage) => format!(
-                "stage `{stage}` contradicts what was known before: the result is a mean of two set-ups"
-            ),
-            Self::InstrumentsContradict(name) => format!(
-                "instrument `{name}` contradicts the others: the result is a mean of what both say"
-            ),
-            Self::BelowNoise(part) => format!(
-                "without any error of the machine the readings already fit to {part:.3} of the noise: another \
-                 unit than the heading says, or `noise` is stated far too large"
-            ),
-        }
-    }
-
-    /// A word for programs.
-    pub fn key(&self) -> &'static str {
-        match self {
-            Self::Explained => "explained",
-            Self::OverFitted => "over-fitted",
-            Self::FollowsPlaces(_) => "follows-xyz",
-            Self::TurnsWith(..) => "turns-with-axis",
-            Self::Arrangement(_) => "arrangement",
-            Self::Reverses(_) => "reverses",
-            Self::Drifts(_) => "drifts",
-            Self::GrossReadings(_) => "gross-readings",
-            Self::Unexplained => "unexplained",
-            Self::StagesContradict(_) => "stages-contradict",
-            Self::InstrumentsContradict(_) => "instruments-contradict",
-            Self::BelowNoise(_) => "below-noise",
-        }
-    }
-}
-
 /// What was identified.
 #[derive(Debug, Clone)]
 pub struct Identification {
@@ -214,6 +99,8 @@ pub struct Identification {
     pub score: Score,
     /// The numbers themselves.
     pub residuals: Residuals,
+    /// What is stated of the set-up against what the readings make of it.
+    pub set_up: Vec<SetUpDeviation>,
     /// In words what they mean.
     pub verdict: Verdict,
     /// Whether the listed errors explain the readings, and what the rest looks like.
@@ -298,28 +185,6 @@ pub fn identify(
             None
         }
     }
-}
-
-impl Identification {
-    /// Readings that can't be right are not explained, however well a model fits them.
-    fn doubted(&self, contradicting: Option<String>) -> Verdict {
-        match (below_noise(&self.design, &self.fit, &self.score), contradicting) {
-            (Some(part), _) => Verdict::BelowNoise(part),
-            (None, Some(instrument)) if self.verdict.is_good() => {
-                Verdict::InstrumentsContradict(instrument)
-            }
-            _ => self.verdict.clone(),
-        }
-    }
-}
-
-/// What the set-up alone leaves, as a part of the noise, where it is far smaller: a machine without errors would leave
-/// the whole noise.
-fn below_noise(design: &Design, fit: &Fit, score: &Score) -> Option<f64> {
-    let numbers = (fit.degrees_of_freedom + fit.sight.rank) as f64;
-    let freedom = numbers - (design.unknowns() - design.terms.len()) as f64;
-    let part = score.before.noise * (numbers / freedom).sqrt();
-    (freedom >= LEAST_FREEDOM && part < BELOW_NOISE).then_some(part)
 }
 
 /// The stages, what all readings at once start from, and how they are evaluated.
@@ -443,12 +308,14 @@ impl<'a> Work<'a> {
         let suspicious =
             score.in_sample.noise > SUSPICIOUS || below_noise(design, &self.fit, &score).is_some();
         let unobservable = |c: &Confusion| Unobservable::of(campaign, &self.whole, c);
+        let set_up = set_up(design, &self.fit, &determined);
         Ok(Identification {
             found: found(design, &determined, &adequacy.explained.degrees_of_freedom),
             left_out: left_out.filter_map(|k| self.whole.unknown(*k)).map(|u| u.name()).collect(),
             unobservable: self.confusions.iter().map(unobservable).collect(),
             candidates: self.candidates.maybe.len(),
             verdict: verdict(design, &adequacy, influences.outliers.len()),
+            set_up,
             influences,
             conventions: suspicious.then(|| check_conventions(&self.whole, readings)),
             feeds: feeds(campaign, readings),

@@ -86,6 +86,14 @@ fn unknowns(
     all
 }
 
+/// Whether the file states an unknown of the machine: all terms of its error are observable.
+pub(super) fn is_stated(found: &Identification, unknown: usize) -> bool {
+    let terms = &found.design.terms;
+    let is_same =
+        |k: &usize| !terms[*k].basis.is_servo() && terms[*k].error == terms[unknown].error;
+    (0..terms.len()).filter(is_same).all(|k| found.found[k].value.is_some())
+}
+
 fn entry(
     (campaign, found): (&Campaign, &Identification),
     (name, terms): (ErrorName, &[(usize, Term)]),

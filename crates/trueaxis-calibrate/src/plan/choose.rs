@@ -11,7 +11,7 @@ use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_measure::measure::Readings;
 use trueaxis_measure::measure::path::{Path, come_from};
 use trueaxis_measure::unknowns::design::Design;
-use trueaxis_measure::unknowns::fit::{Observability, normal_matrix};
+use trueaxis_measure::unknowns::fit::{LEAST_SINGULAR_VALUE, normal_matrix, sight_of};
 use trueaxis_nc::Control;
 
 /// What is known of a combination before anything is read, against all candidates together: so
@@ -167,7 +167,7 @@ fn exchange(
     // Priors are in both; once is enough.
     let none = normal_matrix(design, &Readings::default(), &[]);
     let all = normal_matrix(design, &candidates.stations, &[]) + &before - none;
-    let sight = Observability::of(&all);
+    let sight = sight_of(design, &all, LEAST_SINGULAR_VALUE);
     let want = &candidates.want;
     let seen: Vec<usize> = want.terms.iter().copied().filter(|k| sight.is_seen[*k]).collect();
     if seen.is_empty() {

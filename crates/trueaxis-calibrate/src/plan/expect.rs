@@ -7,7 +7,7 @@ use trueaxis_measure::measure::{Campaign, Readings};
 use trueaxis_measure::unknowns::confusion::Confusion;
 use trueaxis_measure::unknowns::design::{Design, Unknown};
 use trueaxis_measure::unknowns::determined::{Determined, members_that_matter};
-use trueaxis_measure::unknowns::fit::{Observability, normal_matrix};
+use trueaxis_measure::unknowns::fit::{LEAST_SINGULAR_VALUE, normal_matrix, sight_of};
 use trueaxis_measure::unknowns::stated::Stated;
 use trueaxis_report::JsonSchema;
 
@@ -69,7 +69,8 @@ pub struct Expectation {
 /// The uncertainties that these stations will give, by the stated noise of the instruments and what the machine file states with an
 /// uncertainty.
 pub fn expect(campaign: &Campaign, design: &Design, stations: &Readings) -> Expectation {
-    let sight = Observability::of(&normal_matrix(design, stations, &[]));
+    let normal = normal_matrix(design, stations, &[]);
+    let sight = sight_of(design, &normal, LEAST_SINGULAR_VALUE);
     let mut determined = Determined::expected(design, &sight);
     let moved = Stated::of(design, stations).moved((design, &sight), stations, &[]);
     determined.covariance += &moved * moved.transpose();

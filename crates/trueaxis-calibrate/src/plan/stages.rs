@@ -3,7 +3,7 @@
 use trueaxis_measure::measure::calibration::planned_calibrations;
 use trueaxis_measure::measure::{Campaign, Readings};
 use trueaxis_measure::unknowns::design::Design;
-use trueaxis_measure::unknowns::fit::{Observability, normal_matrix};
+use trueaxis_measure::unknowns::fit::{LEAST_SINGULAR_VALUE, normal_matrix, sight_of};
 use trueaxis_measure::unknowns::known::Known;
 
 /// What to expect after a stage.
@@ -37,7 +37,7 @@ pub fn expect_stages(campaign: &Campaign, stations: &Readings) -> Vec<StageExpec
         let readings = stations.filtered(of);
         normal += own.normal;
         normal += normal_matrix(&design, &readings, &[]) - &priors;
-        let sight = Observability::of(&normal);
+        let sight = sight_of(&design, &normal, LEAST_SINGULAR_VALUE);
         let covariance = sight.covariance();
         let u = |k: usize| sight.is_seen[k].then(|| covariance[(k, k)].max(0.0).sqrt());
         StageExpectation { name: stage.name.clone(), u: (0..design.unknowns()).map(u).collect() }

@@ -8,9 +8,12 @@ use std::collections::{BTreeMap, HashMap};
 const MOST_NAMED: usize = 3;
 /// Below this number of different rows, rows that are all repeated may be readings of few digits.
 const LEAST_DIFFERENT: usize = 5;
+/// Numbers that differ by less than this share of the largest of their column are equal: no control and no instrument
+/// states more digits. Copies whose poses were changed by so little would shrink U as well.
+const LAST_DIGIT: f64 = 1e-9;
 
 impl Sheet {
-    /// The table without rows that are equal to an earlier one to the last digit: for points, which no
+    /// The table without rows that are equal to an earlier one to the ninth digit: for points, which no
     /// instrument measures twice alike.
     pub fn with_copies_once(&self, problems: &mut Diagnostics) -> Self {
         self.without(&self.copies(), problems)
@@ -46,9 +49,12 @@ impl Sheet {
     fn copies(&self) -> BTreeMap<usize, usize> {
         let mut first: HashMap<Vec<u64>, usize> = HashMap::new();
         let mut copies = BTreeMap::new();
+        let steps: Vec<f64> = self.columns.iter().map(|c| last_digit(&c.values)).collect();
         for row in 0..self.rows() {
+            let columns = self.columns.iter().zip(&steps);
             // −0 is 0.
-            let key = self.columns.iter().map(|c| (c.values[row] + 0.0).to_bits()).collect();
+            let digits = columns.map(|(c, step)| ((c.values[row] / step).round() + 0.0).to_bits());
+            let key = digits.collect();
             let of = *first.entry(key).or_insert(row);
             if of != row {
                 copies.insert(row, of);
@@ -74,7 +80,7 @@ impl Sheet {
         let hint = "a reading that was taken again has another run or time; delete copies";
         for (copy, of) in copies.iter().take(MOST_NAMED) {
             let message = format!(
-                "this row is that of line {} again, to the last digit: the two count once",
+                "this row is that of line {} again, to the ninth digit: the two count once",
                 self.row_place(*of).line
             );
             problems.warn("copied-rows", self.row_place(*copy), message, hint);
@@ -85,6 +91,14 @@ impl Sheet {
         }
         self.filtered(|row| !copies.contains_key(&row))
     }
+}
+
+/// The decimal place of the ninth digit of the largest number.
+fn last_digit(values: &[f64]) -> f64 {
+    let largest = values.iter().filter(|v| v.is_finite()).fold(0.0_f64, |m, v| m.max(v.abs()));
+    let place = (LAST_DIGIT * largest).log10().floor();
+    // Of zeros there is no digit.
+    if place.is_finite() { 10_f64.powi(place as i32).max(f64::MIN_POSITIVE) } else { 1.0 }
 }
 
 #[cfg(test)]
@@ -124,6 +138,22 @@ mod tests {
         for times in [2, 4] {
             let (kept, told) = rows(&format!("p_mm,d_um\n{}", body.repeat(times)), false);
             assert_eq!((kept, told.len()), (5, 4), "{told:?}");
+        }
+        // Nor is one whose places were changed by what nobody measures, in any unit.
+        for unit in [1.0, 1e-3, 25.4] {
+            let row = |x: f64, d: f64| format!("{},{}\n", x * unit, d * unit);
+            let near: String = (0..4)
+                .flat_map(|k| (1..8).map(move |i| (k, f64::from(i))))
+                .map(|(k, i)| row(i + f64::from(k) * 1e-9, i * 1.1))
+                .collect();
+            let (kept, told) = rows(&format!("p_mm,d_um\n{near}"), false);
+            assert_eq!((kept, told.len()), (7, 4), "{told:?}");
+            // A tenth of a nanometre in a metre is another place.
+            let far: String = (0..4)
+                .flat_map(|k| (1..8).map(move |i| (k, f64::from(i))))
+                .map(|(k, i)| row(i + f64::from(k) * 1e-6, i * 1.1))
+                .collect();
+            assert_eq!(rows(&format!("p_mm,d_um\n{far}"), false), (28, vec![]));
         }
         // Once more for some rows only is no copy of the table.
         assert_eq!(rows(&format!("p_mm,d_um\n{body}1,2\n2,3\n"), false), (7, vec![]));

@@ -10,6 +10,8 @@ use trueaxis_machine::Machine;
 
 /// Copies that are named one by one.
 const MOST_NAMED: usize = 3;
+/// Positions that differ by less are one: no control states more digits, mm or rad.
+const ONE_POSITION: f64 = 1e-7;
 
 /// Reads the table of an instrument; rows that are copies of others count once.
 pub fn read_table(
@@ -35,7 +37,7 @@ pub fn read_table(
     Some(read)
 }
 
-/// A row that is equal to an earlier one to the last digit, and does not say that it was read again (its time, its
+/// A row that is equal to an earlier one, its reading to the last digit and its position to a tenth of a nanometre, and does not say that it was read again (its time, its
 /// group), is no second reading: it would make everything look surer.
 pub fn without_copies(
     readings: &Readings,
@@ -49,7 +51,8 @@ pub fn without_copies(
         let row = readings.row(i);
         let feed = row.motion.feed_mm_per_s.unwrap_or(-1.0);
         let group = if says_group { f64::from(row.group) } else { 0.0 };
-        let numbers = row.command.iter().chain(&row.approach).chain(&row.value);
+        let command = row.command.map(|q| (q / ONE_POSITION).round());
+        let numbers = command.iter().chain(&row.approach).chain(&row.value);
         let numbers = numbers.chain(row.direction.iter()).chain([&row.time_s, &feed, &group]);
         // −0 is 0.
         let key: Vec<u64> = numbers.map(|v| (v + 0.0).to_bits()).collect();

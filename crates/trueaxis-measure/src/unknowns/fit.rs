@@ -10,6 +10,7 @@
 //! of the plan, not of the noise).
 
 use super::design::Design;
+use super::determined::all_before;
 use super::groups::Groups;
 use super::known::Known;
 use crate::instruments::{Instrument, Readings};
@@ -85,7 +86,7 @@ pub struct Fit {
 /// Which unknowns a set of readings determines.
 #[derive(Debug, Clone)]
 pub struct Observability {
-    /// Singular values of J with columns scaled to 1, in units of the noise, greatest first. Unit: 1.
+    /// Singular values of J with columns scaled to 1, in units of the noise: of what is seen, then of the rest, each greatest first. Unit: 1.
     pub singular_values: Vec<f64>,
     /// How many of them are seen.
     pub rank: usize,
@@ -106,22 +107,36 @@ impl Observability {
 
     /// The same; singular values below this share of the greatest are not seen.
     pub fn with_threshold(normal: &DMatrix<f64>, threshold: f64) -> Self {
+        Self::within(normal, threshold, &DVector::from_element(normal.nrows(), f64::INFINITY))
+    }
+
+    /// The same of unknowns that are not larger than `before` (docs/model.md eq. 347): what is known of a combination by
+    /// the readings alone only to more than that is not seen. Rounded poses see a little of every error, and a fit that
+    /// looked for radians in it would spoil, by products of errors, what the readings see well.
+    pub fn within(normal: &DMatrix<f64>, threshold: f64, before: &DVector<f64>) -> Self {
         let n = normal.nrows();
         let length = normal.diagonal().map(|d| d.max(0.0).sqrt());
         // A column of rounding errors must not be scaled to 1.
         let least = SHORTEST_COLUMN * length.max();
-        let scale = length.map(|l| if l > least { l } else { 1.0 });
-        let scaled = DMatrix::from_fn(n, n, |i, j| match length[i].min(length[j]) > least {
+        let is_read = |k: usize| length[k] > least && length[k] * before[k] > 1.0;
+        let scale = DVector::from_fn(n, |k, _| if is_read(k) { length[k] } else { 1.0 });
+        let scaled = DMatrix::from_fn(n, n, |i, j| match is_read(i) && is_read(j) {
             true => normal[(i, j)] / (scale[i] * scale[j]),
             false => 0.0,
         });
         let eigen = SymmetricEigen::new(scaled);
+        let singular = |k: usize| eigen.eigenvalues[k].max(0.0).sqrt();
+        let least = threshold * (0..n).map(singular).fold(0.0, f64::max);
+        let is_seen = |k: usize| {
+            let standard = eigen.eigenvectors.column(k).component_div(&scale) / singular(k);
+            singular(k) > least && standard.iter().zip(before).all(|(u, b)| u.abs() <= *b)
+        };
         let mut order: Vec<usize> = (0..n).collect();
         order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
-        let singular_values: Vec<f64> =
-            order.iter().map(|k| eigen.eigenvalues[*k].max(0.0).sqrt()).collect();
-        let least = threshold * singular_values.first().copied().unwrap_or(0.0);
-        let rank = singular_values.iter().take_while(|s| **s > least).count();
+        // Those that are seen come first.
+        order.sort_by_key(|k| !is_seen(*k));
+        let singular_values: Vec<f64> = order.iter().map(|k| singular(*k)).collect();
+        let rank = order.iter().filter(|k| is_seen(**k)).count();
         let vectors = DMatrix::from_fn(n, n, |i, k| eigen.eigenvectors[(i, order[k])]);
         let null = vectors.columns(rank, n - rank).into_owned();
         let is_seen = (0..n).map(|i| null.row(i).norm() < 1e-5).collect();
@@ -320,6 +335,11 @@ pub fn normal_matrix(design: &Design, readings: &Readings, weights: &[f64]) -> D
     Rows::new(design, readings, weights).normal(&Groups::new(design, readings))
 }
 
+/// What readings with this JᵀWJ say about the unknowns of a design.
+pub fn sight_of(design: &Design, normal: &DMatrix<f64>, threshold: f64) -> Observability {
+    Observability::within(normal, threshold, &all_before(design))
+}
+
 /// The unknowns from the readings; `weights` of the readings (robust losses), empty for 1.
 ///
 /// # Errors
@@ -366,7 +386,7 @@ pub fn fit_by(
         return Err(FitError::NoUnknowns);
     }
     let (rows, groups) = (Rows::new(design, readings, weights), Groups::new(design, readings));
-    let sight = Observability::with_threshold(&rows.normal(&groups), rule.threshold);
+    let sight = sight_of(design, &rows.normal(&groups), rule.threshold);
     let mut values = DVector::zeros(design.unknowns());
     let mut residuals = vec![[0.0; 3]; readings.len()];
     let mut before = 0.0;

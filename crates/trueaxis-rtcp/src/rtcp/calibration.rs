@@ -4,7 +4,7 @@ use super::angles::AngleError;
 use super::control::Slot;
 use nalgebra::DMatrix;
 use serde::Serialize;
-use trueaxis_calibrate::identify::errors::{BELOW_NOISE, LEAST_FREEDOM};
+use trueaxis_calibrate::identify::verdict::{BELOW_NOISE, LEAST_FREEDOM};
 use trueaxis_input::Place;
 use trueaxis_report::JsonSchema;
 

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use trueaxis_calibrate::identify::convention::{ConventionCheck, check_conventions};
 use trueaxis_calibrate::identify::covariance_file::covariance_file;
 use trueaxis_calibrate::identify::errors::{Identification, identify};
+use trueaxis_calibrate::identify::file_residual::check_file;
 use trueaxis_calibrate::identify::machine_file::{MachineFile, machine_file};
 use trueaxis_calibrate::identify::predictor_file::{PredictorFile, judge, predictor_file};
 use trueaxis_calibrate::identify::records::{
@@ -255,6 +256,7 @@ fn machine_files(
     let mut files: Vec<NewFile> = made.tables.into_iter().map(table).collect();
     files.push(NewFile::of("machine file", output, made.text));
     let Identified { campaign, options, records, found, .. } = identified;
+    check_file(found, &records.readings, Place::whole(&output.display().to_string()), problems);
     let text = covariance_file(campaign, found, records, options.date.as_deref());
     files.push(NewFile::of("covariance", covariance_path(output), text));
     Some(files)

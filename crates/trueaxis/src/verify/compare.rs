@@ -15,11 +15,11 @@
 
 mod file;
 mod pairs;
-mod set_up;
 
 pub use file::read_comparison;
 pub use pairs::{Pairs, pair};
-pub use set_up::SetUpDeviation;
+pub use trueaxis_measure::unknowns::set_up::SetUpDeviation;
+use trueaxis_measure::unknowns::set_up::deviations;
 
 use nalgebra::DMatrix;
 use std::collections::BTreeMap;
@@ -448,7 +448,8 @@ impl Fitted {
             }
         }
         let pairs = (gram.norm_squared() - own).max(0.0);
-        let set_up = set_up::deviations(&self.instruments, &self.values, &self.covariance, &taken);
+        let further = |k: usize| taken.row(k).norm_squared();
+        let set_up = deviations(&self.instruments, &self.values, &self.covariance, further);
         let independent = 1.0 / (1.0 + pairs / f64::max(count, 1.0));
         Spread { u: found, redundancy, independent, set_up }
     }

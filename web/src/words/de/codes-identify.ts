@@ -15,6 +15,7 @@ export const codes: Dictionary = {
   "uneven-groups": "Gruppe mit abweichender Anzahl Messwerte",
   "conflicting-instruments": "Messgeräte widersprechen einander",
   "nothing-to-identify": "Keine Messwerte oder keine Unbekannten",
+  "partial-machine-file": "Die Maschinendatei beschreibt die gemessene Maschine nur zum Teil",
   "no-fit": "Ausgleichung der Fehler nicht möglich",
   "other-convention": "Andere Konvention passt weit besser",
   "no-readings": "Messwerte fehlen",

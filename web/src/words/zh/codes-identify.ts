@@ -15,6 +15,7 @@ export const codes: Dictionary = {
   "uneven-groups": "该组读数个数与其他组不同",
   "conflicting-instruments": "仪器之间结果矛盾",
   "nothing-to-identify": "没有读数或没有未知量",
+  "partial-machine-file": "机床文件只部分描述所测机床",
   "no-fit": "误差无法拟合",
   "other-convention": "采用另一种约定拟合明显更好",
   "no-readings": "缺少读数",

@@ -4,9 +4,9 @@
 //!     u²(x̂) = u₀² − C + Σ_e (C JᵀW S_e)²         |x̂| > 3.29 u: contradicted       docs/model.md eq. 345
 //! ```
 
+use super::design::Unknown;
+use crate::instruments::Instrument;
 use nalgebra::DMatrix;
-use trueaxis_measure::measure::Instrument;
-use trueaxis_measure::unknowns::design::Unknown;
 
 /// Quantile of the normal distribution for 99.9 %, two-sided: a correct file is rejected so once in a thousand.
 const NORMAL_999: f64 = 3.290_526_731;
@@ -25,6 +25,8 @@ pub struct SetUpDeviation {
     pub value: f64,
     /// Its standard uncertainty where machine file and statement are right. Unit: µm, µrad, µm/m or by the hour.
     pub u: f64,
+    /// The standard uncertainty with which it is stated, in the same unit. Unit: µm, µrad, µm/m or by the hour.
+    pub stated: f64,
     /// This unit.
     pub unit: &'static str,
 }
@@ -37,12 +39,13 @@ impl SetUpDeviation {
     }
 }
 
-/// The unknowns with a stated uncertainty. `taken` is the effect of each uncertain error of the machine on each unknown.
-pub(super) fn deviations(
+/// The unknowns with a stated uncertainty. `covariance` is that of the noise and the statements alone; `further` adds, by unknown, the
+/// variance from all else that is uncertain.
+pub fn deviations(
     instruments: &[Instrument],
     values: &[f64],
     covariance: &DMatrix<f64>,
-    taken: &DMatrix<f64>,
+    further: impl Fn(usize) -> f64,
 ) -> Vec<SetUpDeviation> {
     let mut found = Vec::new();
     let unknowns = instruments
@@ -52,11 +55,11 @@ pub(super) fn deviations(
     for ((k, value), (instrument, of, unknown)) in values.iter().enumerate().zip(unknowns) {
         let Some(stated) = unknown.prior_u else { continue };
         let least = LEAST_SHARE * stated * stated;
-        let square =
-            (stated * stated - covariance[(k, k)]).max(least) + taken.row(k).norm_squared();
+        let square = (stated * stated - covariance[(k, k)]).max(least) + further(k);
         let (unit, scale) = Unknown::Setup(of, unknown).shown_unit();
-        let [value, u] = [*value, square.sqrt()].map(|v| v * scale);
-        found.push(SetUpDeviation { instrument, unknown: unknown.name.clone(), value, u, unit });
+        let [value, u, stated] = [*value, square.sqrt(), stated].map(|v| v * scale);
+        let unknown = unknown.name.clone();
+        found.push(SetUpDeviation { instrument, unknown, value, u, stated, unit });
     }
     found
 }
