@@ -32,11 +32,13 @@ pub struct Arguments {
         value_name = "LENGTH",
         default_value = "0 um",
         requires = "part",
+        // What is required is not asked for where it would conflict with what is there.
+        conflicts_with = "campaign",
         allow_hyphen_values = true
     )]
     point_u: String,
     /// Draw the errors of the machine within their uncertainties, with --part
-    #[arg(long, requires = "part")]
+    #[arg(long, requires = "part", conflicts_with = "campaign")]
     draw: bool,
     /// Write one table of readings for each instrument into this folder; with --part the points into this file
     #[arg(short, long, value_name = "FOLDER")]

@@ -40,7 +40,9 @@ pub struct Arguments {
     #[arg(long, num_args = 1.., value_name = "FILE", conflicts_with_all = ["file", "diff", "certificate", "part", "before_after"])]
     history: Option<Vec<PathBuf>>,
     /// With --history: the limit of a figure, such as "EC0Y=30 urad" or "iso230-2 X: A=15 um"; may be repeated
-    #[arg(long = "limit", value_name = "FIGURE=LIMIT", requires = "history")]
+    // What is required is not asked for where it would conflict with what is there.
+    #[arg(long = "limit", value_name = "FIGURE=LIMIT", requires = "history",
+        conflicts_with_all = ["file", "diff", "certificate", "part", "before_after"])]
     limits: Vec<String>,
     /// With --before-after: write one table of readings per path and compensation into this folder
     #[arg(short, long, value_name = "FOLDER", requires = "before_after", conflicts_with_all = ["file", "diff", "certificate", "part"])]

@@ -387,3 +387,20 @@ fn endless_files_and_a_full_disk() {
     let reported = String::from_utf8(ended.stderr).expect("UTF-8");
     assert!(reported.starts_with("error[unwritable-output]: standard output"), "{reported}");
 }
+
+/// Not even where the option that it belongs to conflicts with the question that is there.
+#[test]
+fn an_option_of_another_question_is_refused() {
+    let campaign = "examples/04_plan/probe-ball.toml";
+    for arguments in [
+        &["verify", campaign, "--limit", "EC0Y=30 urad"][..],
+        &["measure", campaign, "--draw"],
+        &["measure", campaign, "--point-u", "1 um"],
+    ] {
+        let ran = trueaxis(arguments);
+        assert!(ran.status == 2 && ran.has_no_answer(), "{arguments:?} {}\n{}", ran.out, ran.err);
+        assert!(ran.err.contains("cannot be used with"), "{}", ran.err);
+    }
+    // The default of an option is no option.
+    assert_eq!(trueaxis(&["measure", campaign]).status, 0);
+}

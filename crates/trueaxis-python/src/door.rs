@@ -114,6 +114,8 @@ fn computed<Q: Question>(question: &Q, asked: &Asked<'_>) -> Computed<Q::Answer>
         true => disk,
         false => with_contents(asked.memory.clone(), disk).0,
     };
+    // A machine that was read before is an input all the same.
+    asked.memory.keys().for_each(|path| read.note(path));
     let input = question.read(&files, &mut problems);
     let report = ReportFile::read(
         asked.report,

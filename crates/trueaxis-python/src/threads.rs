@@ -1,6 +1,6 @@
 //! The threads that compute: one pool for each process, so that a process that was forked has threads, too.
 
-use pyo3::exceptions::PyRuntimeError;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::sync::{Arc, Mutex};
@@ -25,7 +25,16 @@ pub fn work<T: Send>(
     Ok(py.detach(|| pool.install(work)))
 }
 
+/// More threads than any computer has processors; each costs its stack.
+const MOST_THREADS: usize = 4096;
+
 fn new_pool(count: usize) -> PyResult<Arc<ThreadPool>> {
+    if count > MOST_THREADS {
+        let message = format!(
+            "threads={count}: at most {MOST_THREADS}, and more than there are cores help nothing"
+        );
+        return Err(PyValueError::new_err(message));
+    }
     let pool = ThreadPoolBuilder::new().num_threads(count).stack_size(STACK_BYTES).build();
     pool.map(Arc::new).map_err(|e| PyRuntimeError::new_err(format!("no threads: {e}")))
 }

@@ -375,3 +375,29 @@ def test_poses_that_cannot_be_reached(tips, axes, code, place):
         with pytest.raises(TrueAxisError) as raised:
             trueaxis.Machine.from_text(text).solve(tips, axes, path=path)
         assert (raised.value.code, raised.value.place.file) == (code, place)
+
+
+def test_masks_names_and_copies_are_not_lost(machine):
+    masked = np.ma.array([1.0, 2.0], mask=[False, True])
+    structured = np.ma.array([(1.0,), (2.0,)], dtype=[("X", float)], mask=[(False,), (True,)])
+    for given in ({"X": masked}, structured):
+        with pytest.raises(TrueAxisError, match="mask"):
+            machine.deviation(given)
+    with pytest.raises(TrueAxisError, match="no columns"):
+        machine.deviation({})
+    with pytest.raises(TrueAxisError) as raised:
+        machine.deviation(AT, approach="X=- X=+")
+    assert raised.value.code == "duplicate-axis"
+    for table in ({"x": [1.0], "y": [2.0], "z": [3.0]}, np.array([(1.0, 2.0, 3.0)], dtype=[(n, float) for n in "zyx"])):
+        with pytest.raises(TrueAxisError, match="`tips` is a table"):
+            machine.solve(table, [[0, 0, 1]])
+    with pytest.raises(TrueAxisError) as raised:
+        machine.solve([[10, 500, 0]], [[0, 0, 1]], near={"Q": 1.0})
+    assert raised.value.place.file == "near"
+    for near in (np.zeros((2, 5)), np.zeros((0, 5))):
+        with pytest.raises(TrueAxisError, match="`near` has"):
+            machine.solve(np.zeros((2, 3)), [[0, 0, 1]] * 2, near=near, path=True)
+    with pytest.raises(TrueAxisError, match="`out` is of the type Errors"):
+        machine.deviation(AT, out=machine.errors_at(AT))
+    with pytest.raises(ValueError, match="threads=1000000000"):
+        machine.deviation(AT, threads=10**9)

@@ -263,3 +263,50 @@ def test_work_goes_on_in_spite_of_errors(tmp_path):
     with pytest.warns(TrueAxisWarning):
         answer = trueaxis.simulate(ENGRAVER, program, keep_going=True, **options)
     assert answer.in_spite_of_errors and "error" in {d.severity for d in answer.diagnostics}
+
+
+def test_tolerances_and_limits_are_single_values(tmp_path):
+    cone = trueaxis.evaluate_form("examples/07_verify/cone-section.csv", element="circle", tolerance="0.01 mm")
+    assert "0.01" in cone.text or "10" in cone.text
+    with pytest.raises(TrueAxisError, match="limit"):
+        trueaxis.compensate_tables(XKAS, target="csv", output=tmp_path / "tables", limit="0.1 um")
+    answer = trueaxis.compensate_tables(XKAS, target="csv", output=tmp_path / "tables", limit="5 mm")
+    assert answer.written
+
+
+def test_a_machine_that_was_read_is_an_input(tmp_path):
+    first, copy = tmp_path / "first.toml", tmp_path / "machine.toml"
+    trueaxis.identify("examples/05_identify/probe-ball.toml", output=first)
+    copy.write_text(first.read_text())
+    for machine in (first, copy):
+        text = machine.read_text()
+        for force in (False, True):
+            with pytest.raises(TrueAxisError, match="input"):
+                trueaxis.compensate_values(
+                    trueaxis.Machine.load(machine), axis="X", targets="0 50", machine_only=True, output=machine, force=force
+                )
+        assert machine.read_text() == text
+
+
+@pytest.mark.parametrize(
+    ("ask", "place"),
+    [
+        (lambda out: trueaxis.compensate_adapt("examples/06_compensate/bangle-adapt.toml", output=out), "output"),
+        (lambda out: trueaxis.compensate_adapt("examples/06_compensate/bangle-adapt.toml", control="fanuc"), "control"),
+        (lambda out: trueaxis.identify_probe("examples/05_identify/ring-60.toml", output=out), "output"),
+        (lambda out: trueaxis.identify_rtcp("examples/05_identify/rtcp-engraver.toml", programs=out, output=out), "programs"),
+        (lambda out: trueaxis.identify_rtcp("examples/05_identify/rtcp-engraver.toml", control="fanuc"), "control"),
+        (lambda out: trueaxis.verify("examples/07_verify/readings.toml", output=out), "output"),
+        (lambda out: trueaxis.verify("examples/07_verify/readings.toml", limit="1 um"), "limit"),
+        (lambda out: trueaxis.verify(diff=["a.toml"]), "diff"),
+        (lambda out: trueaxis.evaluate("iso230-2", "x.csv", write_back=("m.toml",)), "write_back"),
+        (lambda out: trueaxis.post(MILL, "x.cls", control="fanuc", output=out, number=99999999999), "number"),
+        (lambda out: trueaxis.measure("examples/04_plan/probe-ball.toml", seed=-1), "seed"),
+        (lambda out: trueaxis.compensate_program(MILL, "x.nc", output=out, no_rounding=True, increment="5 um"), "no_rounding"),
+        (lambda out: trueaxis.plan_tool_setting(trueaxis.Machine.load(MILL, tool_length=80), "s.toml"), "machine"),
+    ],
+)
+def test_no_option_is_left_out_without_a_word(ask, place, tmp_path):
+    with pytest.raises(TrueAxisError) as raised:
+        ask(tmp_path / "out")
+    assert (raised.value.code, raised.value.place.file) == ("unused-argument", place)

@@ -80,7 +80,8 @@ impl Design {
 
     /// Samples of machines on days.
     pub fn main_samples(&self) -> usize {
-        self.combinations() * self.machines * self.days
+        // A design that is too large is refused, not counted wrongly.
+        self.combinations().saturating_mul(self.machines).saturating_mul(self.days)
     }
 
     /// Samples of a row of the sensitivity analysis.
@@ -90,7 +91,7 @@ impl Design {
 
     /// All samples.
     pub fn samples(&self) -> usize {
-        self.main_samples() + self.sensitivity * self.row_samples()
+        self.main_samples().saturating_add(self.sensitivity.saturating_mul(self.row_samples()))
     }
 
     /// What a sample is.

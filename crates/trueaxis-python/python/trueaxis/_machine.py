@@ -110,6 +110,9 @@ class Machine:
         >>> Machine.from_text("[machine]\\nname = 'three axes'\\nchain = 'w b X Y Z t'").axes
         ('X', 'Y', 'Z')
         """
+        if not isinstance(text, str):
+            message = f"the text of a machine file is of the type {type(text).__name__}"
+            raise refuse("array-type", "text", message, "give a str: bytes.decode()")
         memory = {os.fspath(name): text.encode()}
         for path, content in (files or {}).items():
             memory[os.fspath(path)] = content.encode() if isinstance(content, str) else content
@@ -244,6 +247,9 @@ class Machine:
         self, commands: Any, approach: Any, threads: Optional[int], out: Optional[Deviations], nominal: bool
     ) -> Tuple[Floats, Tuple[Diagnostic, ...]]:
         array, sides = self._array(commands), self._sides(approach)
+        if out is not None and not isinstance(out, Deviations):
+            message = f"`out` is of the type {type(out).__name__}"
+            raise refuse("array-type", "out", message, "give a result of the same function and of as many poses")
         block = None if out is None else out._block
         if block is not None and (block.shape[1] != len(array) or (nominal and len(block) < 12)):
             what = "poses" if len(block) == 12 else "deviations"
@@ -299,10 +305,15 @@ class Machine:
         >>> machine.solve([[10, 500, -70]], [[0, 0, 1]]).commands
         array([[ 10., 500.,  30.]])
         """
+        for name, given in (("tips", tips), ("axes", axes)):
+            _without_names(name, given)
         zeros = np.zeros((1, len(self.axes)))
-        before = zeros if near is None else self._array(near)
-        if isinstance(before, (list, tuple, np.ndarray)) and np.ndim(before) == 1:
+        before = zeros if near is None else self._array(near, "near")
+        if isinstance(before, np.ndarray) and before.ndim == 1 or _is_row(before):
             before = np.asarray(before)[np.newaxis, :]
+        if path and np.shape(before)[:1] not in ((), (1,)):
+            message = f"`near` has {len(before)} rows: a path has one place before it"
+            raise refuse("array-shape", "near", message, "give the row where the axes stand before the path")
         if path:
             solved = _native.follow(self._native, tips, axes, before)
         else:
@@ -312,7 +323,7 @@ class Machine:
         warn(found, 2)
         return Solutions(commands, within, singular, self.axes, self.units, found)
 
-    def _array(self, commands: Any) -> Any:
+    def _array(self, commands: Any, argument: str = "commands") -> Any:
         """Commands by the names of their columns become an array in the order of the axes."""
         names = getattr(commands, "columns", None)
         if isinstance(commands, Mapping):
@@ -326,20 +337,27 @@ class Machine:
         if unknown:
             raise refuse(
                 "unknown-axis",
-                "commands",
+                argument,
                 f"the machine has no axis `{unknown[0]}`",
                 f"name each column by an axis of the machine, mm and degrees: {', '.join(axes)}",
             )
+        if not names:
+            message = "it has no columns, so that the number of poses is not known"
+            raise refuse("array-shape", argument, message, f"name each column by an axis: {', '.join(axes)}")
+        masked = [name for name in names if np.ma.isMaskedArray(commands[name])]
+        if masked:
+            message = f"the column `{masked[0]}` is a masked array, whose mask would be lost"
+            raise refuse("array-type", f"{argument}[{masked[0]!r}]", message, "write plain numbers, mm and degrees")
         columns = {str(name): np.asarray(commands[name]) for name in names}
         count = max((np.size(column) for column in columns.values()), default=0)
         texts = [name for name, column in columns.items() if column.dtype.kind not in "iuf"]
         if texts:
             message = f"the column `{texts[0]}` has the type {columns[texts[0]].dtype}"
-            raise refuse("array-type", f"commands[{texts[0]!r}]", message, "write plain numbers, mm and degrees")
+            raise refuse("array-type", f"{argument}[{texts[0]!r}]", message, "write plain numbers, mm and degrees")
         uneven = [name for name, column in columns.items() if np.shape(column) not in ((), (count,))]
         if uneven:
             message = f"the column `{uneven[0]}` has the shape {np.shape(columns[uneven[0]])}, not ({count},)"
-            raise refuse("array-shape", f"commands[{uneven[0]!r}]", message, "give every axis as many numbers")
+            raise refuse("array-shape", f"{argument}[{uneven[0]!r}]", message, "give every axis as many numbers")
         # By columns, as the library reads them.
         array = np.zeros((count, len(axes)), order="F")
         for name, column in columns.items():
@@ -354,8 +372,24 @@ class Machine:
                 message = f"`{word}` is not an axis of the machine with + or -"
                 hint = f'+ rising, - falling: "X=+ C=-"; the axes are {", ".join(self.axes)}'
                 raise refuse("bad-approach", "approach", message, hint)
+            if sides[self.axes.index(axis)] != 0.0:
+                message = f"the axis {axis} is given twice"
+                raise refuse("duplicate-axis", "approach", message, "give each axis once")
             sides[self.axes.index(axis)] = 1.0 if side == "+" else -1.0
         return sides
+
+
+def _is_row(given: Any) -> bool:
+    """Whether it is a list of plain numbers."""
+    return isinstance(given, (list, tuple)) and bool(given) and all(np.isscalar(entry) for entry in given)
+
+
+def _without_names(name: str, given: Any) -> None:
+    """Refuses a table: its columns would be read in the order in which they stand, whatever their names are."""
+    has_names = hasattr(given, "columns") or isinstance(given, Mapping)
+    if has_names or isinstance(given, np.ndarray) and given.dtype.names:
+        message = f"`{name}` is a table: its columns have names, and x, y, z are read in their order"
+        raise refuse("array-type", name, message, "give an array of the shape (n, 3): table[[…]].to_numpy()")
 
 
 def _unpickled(options: Dict[str, Any], files: Dict[str, bytes]) -> Machine:

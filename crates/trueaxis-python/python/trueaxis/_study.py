@@ -14,7 +14,7 @@ from ._answers import Answer
 from ._ask import ask
 from ._machine import Path, path_of
 from ._poses import Floats
-from ._problems import Diagnostic, diagnostics, warn
+from ._problems import Diagnostic, diagnostics, refuse, warn
 
 if TYPE_CHECKING:
     from . import documents
@@ -160,11 +160,32 @@ class Study:
         return self._native.inputs_of(start, self.samples if stop is None else stop)
 
     def answer(self, values: npt.ArrayLike) -> Answer[documents.StudyDocument]:
-        """The answer of all samples, from their outputs as :meth:`values` gives them, in order."""
-        rows = np.ascontiguousarray(values, dtype=np.float64)
+        """The answer of all samples, from their outputs as :meth:`values` gives them, in order.
+
+        Of a DataFrame the columns are taken by the names of the outputs.
+        """
+        given: Any = values
+        if hasattr(given, "columns"):
+            if sorted(map(str, given.columns)) != sorted(self.outputs):
+                message = f"the columns are {', '.join(map(str, given.columns))}"
+                raise refuse("array-shape", "values", message, f"the outputs are {', '.join(self.outputs)}")
+            given = given[list(self.outputs)].to_numpy()
+        if np.ma.isMaskedArray(given):
+            message = "`values` is a masked array, whose mask would be lost"
+            raise refuse("array-type", "values", message, "give the numbers of all samples, mm")
+        rows = np.asarray(given)
+        if rows.dtype.kind not in "iuf":
+            message = f"`values` has the type {rows.dtype}"
+            raise refuse("array-type", "values", message, "give plain numbers, mm")
         shape = (self.samples, len(self.outputs))
         if rows.shape != shape:
-            raise ValueError(f"values of the shape {rows.shape} instead of {shape}")
+            message = f"`values` has the shape {rows.shape}, not {shape}"
+            raise refuse("array-shape", "values", message, "one row for each sample, one column for each output")
+        rows = np.ascontiguousarray(rows, dtype=np.float64)
+        bad = np.argwhere(~np.isfinite(rows))
+        if len(bad):
+            place = f"values[{bad[0][0]}, {bad[0][1]}]"
+            raise refuse("not-finite", place, f"{rows[tuple(bad[0])]} is not finite", "give the numbers of all samples, mm")
         return Answer(self._native.answer(rows.reshape(-1)))
 
     def __repr__(self) -> str:

@@ -69,7 +69,9 @@ fn program(o: &Options<'_, '_>) -> PyResult<CompensateProgram> {
 }
 
 fn tables(o: &Options<'_, '_>, door: &Door<'_>) -> PyResult<CompensateTables> {
-    let trims = o.text("comp_file_type")?.as_deref() == Some("1");
+    let types = [("0", false), ("1", true)];
+    let trims =
+        choice(door.py(), "comp_file_type", o.text("comp_file_type")?, &types)? == Some(true);
     let targets = [
         ("csv", Target::Csv),
         ("linuxcnc", Target::LinuxCnc { trims }),
