@@ -323,7 +323,7 @@ setup = { ball_x = "35 um", ball_y = "-22 um", ball_z = "14 um" }
 /// well is the same whatever was rounded, and what only the rounding sees is not observable (docs/model.md eq. 347).
 #[test]
 fn law_rounded_stations_find_the_same() {
-    let path = "kind = \"random\"\nC = [\"-170 deg\", \"170 deg\"]\ncount = 24\nseed = 3";
+    let path = "kind = \"C\"\nfrom = \"-170 deg\"\nto = \"170 deg\"\ncount = 24";
     let exact = measured(&ONE_AXIS.replace("PATH", path), "");
     let campaign = ONE_AXIS.replace("PATH", "kind = \"table\"\ntable = \"stations.csv\"");
     let axes = ["X", "Y", "Z", "B", "C"];

@@ -8,9 +8,9 @@ use std::collections::{BTreeMap, HashMap};
 const MOST_NAMED: usize = 3;
 /// Below this number of different rows, rows that are all repeated may be readings of few digits.
 const LEAST_DIFFERENT: usize = 5;
-/// Numbers that differ by less than this share of the largest of their column are equal: no control and no instrument
-/// states more digits. Copies whose poses were changed by so little would shrink U as well.
-const LAST_DIGIT: f64 = 1e-9;
+/// Numbers are equal that agree to so many digits of the largest of their column: no control and no instrument states more.
+/// Copies whose places were changed by less would shrink U as well.
+const DIGITS: i32 = 9;
 
 impl Sheet {
     /// The table without rows that are equal to an earlier one to the ninth digit: for points, which no
@@ -93,12 +93,16 @@ impl Sheet {
     }
 }
 
-/// The decimal place of the ninth digit of the largest number.
+/// One in the last of so many digits of the largest number.
 fn last_digit(values: &[f64]) -> f64 {
     let largest = values.iter().filter(|v| v.is_finite()).fold(0.0_f64, |m, v| m.max(v.abs()));
-    let place = (LAST_DIGIT * largest).log10().floor();
+    let first = largest.log10().floor();
     // Of zeros there is no digit.
-    if place.is_finite() { 10_f64.powi(place as i32).max(f64::MIN_POSITIVE) } else { 1.0 }
+    if first.is_finite() {
+        10_f64.powi(first as i32 + 1 - DIGITS).max(f64::MIN_POSITIVE)
+    } else {
+        1.0
+    }
 }
 
 #[cfg(test)]
