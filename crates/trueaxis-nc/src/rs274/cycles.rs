@@ -6,7 +6,6 @@ use crate::execution::mistakes;
 use crate::moves::{Axis, Event, MoveKind, Position, SpindleDirection};
 use crate::rs274::code::{Cycle, Motion};
 use crate::text::program::Fault;
-use trueaxis_blocks::Control;
 use trueaxis_cycles::pattern::{Circle, MOST_HOLES, Row, peck_depths};
 
 /// What drilling cycles keep from block to block.
@@ -23,6 +22,8 @@ pub(super) struct CycleMemory {
     dwell_s: f64,
     /// Where the drill stood when the cycles began.
     initial_mm: Option<f64>,
+    /// The block itself writes the G code of its cycle.
+    pub written: bool,
 }
 
 impl CycleMemory {
@@ -86,6 +87,12 @@ impl Run<'_> {
         let polar = self.modes.transforms.polar.is_some();
         let axes = self.core.modes.plane.axes();
         let steps = if polar { [None; 2] } else { [axes[0], axes[1]].map(|a| self.axis_word(a)) };
+        if repeats == 0.0 && !self.modes.cycle.written && self.is_haas() {
+            // Haas, "Mill Operator's Manual", G81: L0 in a later block moves X and Y without the cycle.
+            let over = self.over_hole(steps)?;
+            self.step(MoveKind::Rapid, over);
+            return Ok(());
+        }
         // FANUC looks at where the drill is, LinuxCNC at where the cycles began.
         let height = if self.is_fanuc() { self.frames.position.0[hole.axis] } else { hole.begin };
         if height < hole.r && cycle != Cycle::BackBore {
@@ -94,17 +101,7 @@ impl Run<'_> {
             self.step(MoveKind::Rapid, up);
         }
         for n in 0..repeats as u32 {
-            let mut over = self.frames.position;
-            for (axis, step) in axes.iter().zip(steps) {
-                let base = if self.core.modes.incremental { over[*axis] } else { 0.0 };
-                over[*axis] = step.map_or(over[*axis], |s| base + s);
-            }
-            if let Some(place) = self.polar_place() {
-                (over[axes[0]], over[axes[1]]) = (place[0], place[1]);
-            }
-            if let Some(place) = self.polar_target(false)? {
-                (over[Axis::X], over[Axis::Y]) = (place[0], place[1]);
-            }
+            let mut over = self.over_hole(steps)?;
             // LinuxCNC goes on at the height to which its last hole has returned, or as high as this one
             // will.
             if !self.is_fanuc() && (n > 0 || over.0[hole.axis] <= hole.r) {
@@ -124,6 +121,23 @@ impl Run<'_> {
         }
         self.words.polar = [None; 2];
         Ok(())
+    }
+
+    /// The place of the next hole, at the height at which the drill is.
+    fn over_hole(&mut self, steps: [Option<f64>; 2]) -> Result<Position, Fault> {
+        let [first, second, _] = self.core.modes.plane.axes();
+        let mut over = self.frames.position;
+        for (axis, step) in [first, second].into_iter().zip(steps) {
+            let base = if self.core.modes.incremental { over[axis] } else { 0.0 };
+            over[axis] = step.map_or(over[axis], |s| base + s);
+        }
+        if let Some(place) = self.polar_place() {
+            (over[first], over[second]) = (place[0], place[1]);
+        }
+        if let Some(place) = self.polar_target(false)? {
+            (over[Axis::X], over[Axis::Y]) = (place[0], place[1]);
+        }
+        Ok(over)
     }
 
     /// G70, G71 and G72 of HAAS: the drilling cycle that is on, at holes about or from the place of the tool.
@@ -183,7 +197,7 @@ impl Run<'_> {
     /// two cycles and is left out.
     fn shorter_pecks(&mut self, cycle: Cycle, at: usize) -> Result<(), Fault> {
         let pecks = matches!(cycle, Cycle::Peck | Cycle::ChipBreaking);
-        if !pecks || self.current().dialect().control != Control::Haas {
+        if !pecks || !self.is_haas() {
             return Ok(());
         }
         let unit = self.core.modes.unit_mm();

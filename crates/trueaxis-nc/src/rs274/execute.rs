@@ -115,6 +115,8 @@ impl Run<'_> {
         block: &Block,
     ) -> Result<Next, Fault> {
         self.modes.moved = false;
+        let cycles = |a: &Action| matches!(a, Action::Motion(Motion::Cycle(_)));
+        self.modes.cycle.written = actions.iter().any(|(a, _)| cycles(a));
         if self.modes.data_input {
             self.modes.data_input = !actions.iter().any(|(a, _)| *a == Action::DataInputEnd);
             let _ = self.words.take_all();

@@ -1,0 +1,113 @@
+//! What FANUC, Haas and LinuxCNC do differently with the same words.
+
+use trueaxis_nc::Control::{Fanuc, Haas, LinuxCnc};
+use trueaxis_nc::moves::{Axis, Frame, Move, Position};
+use trueaxis_nc::{Control, Event, MoveKind, NoLibrary, Program, Settings, Step, interpret};
+
+/// What a program comes to.
+struct Run {
+    moves: Vec<Move>,
+    /// Where the axes are after each move.
+    machine: Vec<Position>,
+    /// The codes of the problems.
+    codes: Vec<&'static str>,
+}
+
+fn run(control: Control, text: &str) -> Run {
+    let program = Program::new("p", text.as_bytes().to_vec(), control);
+    let (mut frame, mut tool) = (Frame::IDENTITY, Position::default());
+    let (mut moves, mut machine) = (Vec::new(), Vec::new());
+    let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |s| match s {
+        Step::Move(m) => {
+            machine.push(frame.place(&m.target).plus(&tool));
+            moves.push(m);
+        }
+        Step::Event(Event::Frame(f), _) => frame = f,
+        Step::Event(Event::ToolLength(length), _) => tool = length,
+        Step::Event(..) => {}
+    });
+    Run { moves, machine, codes: outcome.problems.iter().map(|p| p.code).collect() }
+}
+
+impl Run {
+    /// The places of one axis of the machine, those that repeat left out.
+    fn axis(&self, axis: Axis) -> Vec<f64> {
+        let mut places: Vec<f64> = self.machine.iter().map(|p| p[axis]).collect();
+        places.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+        places
+    }
+}
+
+#[track_caller]
+fn assert_near(found: &[f64], wanted: &[f64], what: &str) {
+    let near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-9;
+    assert!(
+        found.len() == wanted.len() && found.iter().zip(wanted).all(near),
+        "{what}\n{found:?}\n{wanted:?}"
+    );
+}
+
+/// Haas: L0 in a later block of a cycle moves X and Y without a hole; in the block of G81 it keeps the data only.
+#[test]
+fn law_l0_in_a_later_block_of_a_cycle_moves_past_a_place() {
+    let places = |text: &str| -> Vec<[f64; 3]> {
+        let found = run(Haas, text);
+        assert_eq!(found.codes, [""; 0], "{text}");
+        let mut all: Vec<_> = found.machine.iter().map(|p| [p.0[0], p.0[1], p.0[2]]).collect();
+        all.dedup();
+        all
+    };
+    let begin = "G21 G0 X0. Y0. Z10.\nF100.\n";
+    let end = "X7. Y3.\nG80\nM30\n";
+    for (cycle, height) in [
+        ("G81 G99 X1. Z-5. R2.", 2.0),
+        ("G98 G81 Z-5. R2. X1.", 10.0),
+        ("G83 G98 X1. Z-5. R2. Q1.", 10.0),
+    ] {
+        for past in ["X4. Y5. L0", "L0 Y5. X4.", "N5 G91 X3. Y5. L0\nG90", "G90 X4. Y5. L00"] {
+            let found = places(&format!("{begin}{cycle}\n{past}\n{end}"));
+            let there: Vec<_> = found.iter().filter(|p| p[0] == 4.0).collect();
+            assert_eq!(there, [&[4.0, 5.0, height]], "{cycle} {past}");
+            assert!(found.contains(&[7.0, 3.0, -5.0]), "the next hole: {cycle} {past}");
+        }
+        let first = places(&format!("{begin}{cycle} L0\n{end}"));
+        assert!(first.iter().all(|p| p[0] != 1.0), "{cycle}");
+        assert!(first.contains(&[7.0, 3.0, -5.0]), "{cycle}");
+    }
+    // K0 of FANUC is no such word.
+    let fanuc = run(Fanuc, &format!("{begin}G81 G99 X1. Z-5. R2.\nX4. K0\nM30\n"));
+    assert!(fanuc.machine.iter().all(|p| p[Axis::X] != 4.0));
+}
+
+/// Haas: L repeats an incremental arc, from where the last has ended.
+#[test]
+fn law_l_repeats_an_incremental_arc() {
+    let begin = "G21 G0 X5. Y0. Z0.\nF100.\n";
+    for arc in [
+        "G91 G3 I-5. J0. Z1.",
+        "G3 G91 Z1. I-5.",
+        "G91 G2 X2. Y2. I2. J0. Z-1.",
+        "G91\nG3 X3. Y1. R4.",
+    ] {
+        for count in [1, 2, 5] {
+            let repeated = run(Haas, &format!("{begin}{arc} L{count}\nM30\n"));
+            let plain = run(Haas, &format!("{begin}{}M30\n", format!("{arc}\n").repeat(count)));
+            assert_eq!((&repeated.codes, &plain.codes), (&vec![], &vec![]), "{arc}");
+            assert_eq!(repeated.machine.len(), count + 1, "{arc}");
+            for (a, b) in repeated.moves.iter().zip(&plain.moves) {
+                let round = |m: &Move| match m.kind {
+                    MoveKind::Arc(arc) => (arc.ccw, arc.center_mm[0], arc.center_mm[1]),
+                    _ => (false, 0.0, 0.0),
+                };
+                let (a, b) = ((round(a), a.target), (round(b), b.target));
+                assert_eq!(a.0.0, b.0.0, "{arc} L{count}");
+                assert_near(&[a.0.1, a.0.2], &[b.0.1, b.0.2], arc);
+                assert_near(&a.1.0, &b.1.0, arc);
+            }
+        }
+    }
+    let absolute = run(Haas, &format!("{begin}G90 G3 I-5. Z1. L5\nM30\n"));
+    assert_eq!((absolute.moves.len(), absolute.codes), (2, vec!["not-applied"]));
+    assert_eq!(run(Haas, &format!("{begin}G91 G3 I-5. L0.5\nM30\n")).codes, ["bad-repeats"]);
+    assert_eq!(run(Fanuc, &format!("{begin}G91 G3 I-5. L2\nM30\n")).codes, ["unused-word"]);
+}
