@@ -111,3 +111,63 @@ fn law_l_repeats_an_incremental_arc() {
     assert_eq!(run(Haas, &format!("{begin}G91 G3 I-5. L0.5\nM30\n")).codes, ["bad-repeats"]);
     assert_eq!(run(Fanuc, &format!("{begin}G91 G3 I-5. L2\nM30\n")).codes, ["unused-word"]);
 }
+
+/// FANUC and Haas: G52 stands on top of G92, which cancels it for the axes of its block; LinuxCNC has one register.
+#[test]
+fn law_a_local_shift_stands_on_top_of_g92() {
+    for (text, fanuc, linuxcnc) in [
+        (
+            "G0 X10.\nG92 X0.\nG52 X100.\nG1 X5. F100.\nG52 X0.\nX5.",
+            &[10., 115., 15.][..],
+            &[10., 105., 5.][..],
+        ),
+        (
+            "G0 X10.\nG92 X0.\nN3 G52 X100.\nG91 G1 X95. F100.\nG90 G52 X0.\nX5.",
+            &[10., 105., 15.],
+            &[10., 105., 5.],
+        ),
+        ("G52 X100.\nG0 X5.\nG92 X0.\nG52 X0.\nG0 X1.", &[105., 106.], &[105., 1.]),
+        ("G52 X100.\nG0 X5.\nG92 Y3.\nG52 X0.\nG0 X1.", &[105., 1.], &[105., 1.]),
+        (
+            "G52 X100.\nG52 X20. Y1.\nG0 X5.\nG52 Y0.\nX6.\nG52 X0.\nX6.",
+            &[25., 26., 6.],
+            &[25., 26., 6.],
+        ),
+        (
+            "G10 L2 P2 X50.\nG52 X10.\nG0 X1.\nG55 X1.\nG92 X0.\nG54 X1.",
+            &[11., 61., 12.],
+            &[11., 61., 12.],
+        ),
+    ] {
+        let text = format!("G21 G17\n{text}\nM30\n");
+        for control in [Fanuc, Haas, LinuxCnc] {
+            let found = run(control, &text);
+            assert_eq!(found.codes, [""; 0], "{control:?} {text}");
+            let wanted = if control == LinuxCnc { linuxcnc } else { fanuc };
+            assert_near(&found.axis(Axis::X), wanted, &format!("{control:?} {text}"));
+        }
+    }
+    for control in [Fanuc, Haas] {
+        for (text, wanted) in [
+            // G92.1 takes both away, for the axes of its block.
+            ("G0 X10.\nG92 X0.\nG52 X100.\nG92.1 Y0.\nX1.\nG92.1 X0.\nX1.", &[10., 111., 1.][..]),
+            // Seen from a rotated frame of the program, the place of G92 is that of the tool.
+            (
+                "G0 X10. Y0.\nG68 X0 Y0 R90.\nG92 Y0.\nG52 X3.\nG0 Y1.\nG69\nG52 X0.\nG0 X0.",
+                &[10., 12., 10.],
+            ),
+            (
+                "G0 X10.\nG92 X0.\nG52 X5.\nG51.1 X0.\nG0 X1.\nG50.1\nX1.\nG52 X0.\nX1.",
+                &[10., 14., 16., 11.],
+            ),
+        ] {
+            let found = run(control, &format!("G21 G17\n{text}\nM30\n"));
+            assert_eq!(found.codes, [""; 0], "{control:?} {text}");
+            assert_near(&found.axis(Axis::X), wanted, &format!("{control:?} {text}"));
+        }
+    }
+    // On Haas #5201 and G10 L2 P0 are the register of G52, on FANUC one of its own.
+    let text = "G21 G52 X7.\nG10 L2 P0 X3.\nG0 X#5201\nG52 X0.\nG0 X1.\n#5201=5.\nG0 X0.\nM30\n";
+    assert_near(&run(Haas, text).axis(Axis::X), &[6., 1., 5.], "Haas");
+    assert_near(&run(Fanuc, text).axis(Axis::X), &[13., 4., 5.], "FANUC");
+}

@@ -30,6 +30,10 @@ impl Run<'_> {
             }
             Action::SetTable => self.set_table(at)?,
             Action::Shift => self.shift_here(),
+            Action::LocalShift if self.is_fanuc() => {
+                let local = self.by_words(self.frames.local, Axis::ALL, false);
+                self.change_local(local);
+            }
             Action::LocalShift => {
                 let shift = self.by_words(self.frames.shift, Axis::ALL, false);
                 self.change_shift(shift, true);
@@ -38,12 +42,9 @@ impl Run<'_> {
             Action::ShiftSuspend => self.change_shift(self.frames.shift, false),
             Action::ShiftResume => self.change_shift(self.frames.shift, true),
             Action::Preset => {
-                let mut shift = self.frames.shift;
-                for axis in Axis::ALL {
-                    if self.axis_word(axis).is_some() {
-                        shift[axis] = 0.0;
-                    }
-                }
+                let [shift, local] =
+                    [self.frames.shift, self.frames.local].map(|of| self.without_named(of));
+                self.frames.change(|f| f.local = local);
                 self.change_shift(shift, true);
             }
             Action::Reference(index) => self.off_contour("G28 or G30", at, |run| {
@@ -63,9 +64,21 @@ impl Run<'_> {
         Ok(())
     }
 
+    /// The same with 0 for the axes that the block names.
+    fn without_named(&mut self, mut of: Position) -> Position {
+        let named = |axis: &Axis| self.axis_word(*axis).is_some();
+        Axis::ALL.into_iter().filter(named).for_each(|axis| of[axis] = 0.0);
+        of
+    }
+
     /// G92: the present place gets the written coordinates.
+    ///
+    /// # Source
+    /// Haas Automation, "Mill Operator's Manual", G92: it cancels G52 for the axes of its block. NCT 99M user's manual,
+    /// 9.2.4, says the same of a control of FANUC's kind.
     fn shift_here(&mut self) {
         let target = self.by_words(self.frames.position, Axis::ALL, false);
+        let local = self.without_named(self.frames.local);
         self.frames.change(|f| {
             let mut moved = f.position.minus(&target);
             if let Some(program) = &f.program {
@@ -73,8 +86,8 @@ impl Run<'_> {
                 let [x, y, z, ..] = moved.0;
                 moved.0[..3].copy_from_slice(&program.vector([x, y, z]));
             }
-            f.shift = f.live_shift().plus(&moved);
-            f.shift_on = true;
+            f.shift = f.live_shift().minus(&local).plus(&moved);
+            (f.local, f.shift_on) = (local, true);
         });
         self.emit_shift();
     }
@@ -87,6 +100,11 @@ impl Run<'_> {
 
     fn change_shift(&mut self, shift: Position, on: bool) {
         self.frames.change(|f| (f.shift, f.shift_on) = (shift, on));
+        self.emit_shift();
+    }
+
+    pub(super) fn change_local(&mut self, local: Position) {
+        self.frames.change(|f| f.local = local);
         self.emit_shift();
     }
 
@@ -416,11 +434,20 @@ impl Run<'_> {
     /// FANUC G10 L2 P0: what is added to all work offsets.
     fn set_external(&mut self) {
         let incremental = self.core.modes.incremental;
-        let external = self.by_words(self.frames.external, Axis::ALL, incremental);
+        let external = self.by_words(self.external(), Axis::ALL, incremental);
         self.change_external(external);
     }
 
+    /// What is added to all work offsets: a register of its own, on HAAS that of G52 ("Mill Operator's Manual", G10 P0
+    /// and `#5201`).
+    pub(super) fn external(&self) -> Position {
+        if self.is_haas() { self.frames.local } else { self.frames.external }
+    }
+
     pub(super) fn change_external(&mut self, external: Position) {
+        if self.is_haas() {
+            return self.change_local(external);
+        }
         self.frames.change(|f| f.external = external);
         self.emit_frame();
     }

@@ -52,7 +52,7 @@ impl Run<'_> {
             let length = |entry: u32| frames.tools.get(&entry).copied().unwrap_or_default();
             let wear = |entry: u32| frames.wear.get(&entry).copied().unwrap_or_default();
             return match table {
-                Table::External => self.shown(&frames.external, axis),
+                Table::External => self.shown(&self.external(), axis),
                 Table::Offset(index) => {
                     let work = frames.offsets.get(index).copied().unwrap_or_default();
                     self.shown(&work.offset, axis)
@@ -168,7 +168,7 @@ impl Run<'_> {
             let value = if rotary { value } else { value * self.core.modes.unit_mm() };
             match table {
                 Table::External => {
-                    let mut external = self.frames.external;
+                    let mut external = self.external();
                     external.0[axis] = value;
                     self.change_external(external);
                 }
