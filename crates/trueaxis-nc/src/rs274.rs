@@ -12,6 +12,7 @@ mod fanuc;
 mod flow;
 mod frames;
 mod linuxcnc;
+mod machine_place;
 mod parameters;
 mod quick;
 mod radius;

@@ -171,3 +171,51 @@ fn law_a_local_shift_stands_on_top_of_g92() {
     assert_near(&run(Haas, text).axis(Axis::X), &[6., 1., 5.], "Haas");
     assert_near(&run(Fanuc, text).axis(Axis::X), &[13., 4., 5.], "FANUC");
 }
+
+/// G53 after G91: LinuxCNC refuses it, FANUC and Haas read a place of the machine and warn.
+#[test]
+fn law_g53_after_g91_is_refused_or_warned_of() {
+    let begin = "G21 G54\nG10 L2 P1 X20.\nG0 X5.\n";
+    for block in ["G91 G53 G0 X7.", "G53 G91 X7. G0", "G91\nN4 G53 X7.", "G91\nG53 G90 X7."] {
+        let later = block.contains("G90");
+        let text = format!("{begin}{block}\nG90 X6.\nM30\n");
+        for control in [Fanuc, Haas] {
+            let found = run(control, &text);
+            assert_near(&found.axis(Axis::X), &[25., 7., 26.], &text);
+            let wanted: &[&str] = if later { &[] } else { &["incremental-machine-place"] };
+            assert_eq!(found.codes, wanted, "{control:?} {text}");
+        }
+        let linuxcnc = run(LinuxCnc, &text);
+        let wanted: &[f64] = if later { &[25., 7., 26.] } else { &[25.] };
+        assert_near(&linuxcnc.axis(Axis::X), wanted, &text);
+    }
+}
+
+/// G53 of FANUC moves with rapid, whatever G code is modal; on the others as that says.
+#[test]
+fn law_g53_of_fanuc_moves_with_rapid() {
+    let begin = "G21 G54\nG10 L2 P1 X20. Y3.\nG0 X5. F100.\n";
+    for block in [
+        "G1 G53 X7.",
+        "G53 X7. G1 F50.",
+        "G1 Y1.\nG53 X7.",
+        "G53 G0 X7.",
+        "G0 G53 X7.\nG90 G53 X8.",
+    ] {
+        let text = format!("{begin}{block}\nM30\n");
+        for control in [Fanuc, Haas, LinuxCnc] {
+            let found = run(control, &text);
+            assert_eq!(found.codes, [""; 0], "{control:?} {text}");
+            let rapid = control == Fanuc || !block.contains("G1");
+            let last = found.moves.last().map(|m| m.kind);
+            let wanted = if rapid { MoveKind::Rapid } else { MoveKind::Linear };
+            assert_eq!(last, Some(wanted), "{control:?} {text}");
+            let place = if block.contains("X8.") { 8.0 } else { 7.0 };
+            assert_eq!(found.axis(Axis::X).last(), Some(&place), "{control:?} {text}");
+        }
+    }
+    // After an arc no centre is asked for, and what is modal comes back.
+    let found = run(Fanuc, &format!("{begin}G2 X7. I1.\nG53 Y0.\nX9. I1.\nM30\n"));
+    assert_eq!(found.codes, [""; 0]);
+    assert!(matches!(found.moves[3].kind, MoveKind::Arc(_)));
+}

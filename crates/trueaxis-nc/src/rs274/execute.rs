@@ -442,6 +442,7 @@ impl Run<'_> {
     }
 
     fn motion(&mut self, motion: Motion, machine: bool, at: usize) -> Result<(), Fault> {
+        let motion = if machine { self.machine_motion(motion, at)? } else { motion };
         if machine && self.core.has_radius() {
             return self.off_contour("G53", at, |run| run.motion_as_written(motion, machine, at));
         }
@@ -557,27 +558,6 @@ impl Run<'_> {
             return Err(mistakes::zero_direction(at));
         }
         Ok(Some(direction))
-    }
-
-    /// The program coordinates of a place given in machine coordinates.
-    fn machine_target(&mut self) -> Position {
-        self.modes.length_due = Position::default();
-        let mut machine = self.frames.machine();
-        let mut named = [false; 9];
-        for axis in Axis::ALL {
-            if let Some(value) = self.axis_word(axis) {
-                machine[axis] = value;
-                named[axis as usize] = true;
-            }
-        }
-        let target = self.frames.program_at(&machine);
-        let turned = self.frames.work().rotation_deg != 0.0 && (named[0] || named[1]);
-        let spatial = self.frames.program.is_some() || self.frames.work().linear.is_some();
-        let old = self.frames.position;
-        Position(std::array::from_fn(|i| {
-            let mixed = turned && i < 2 || spatial && i < 3;
-            if named[i] || mixed { target.0[i] } else { old.0[i] }
-        }))
     }
 }
 

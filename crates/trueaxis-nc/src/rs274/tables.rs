@@ -4,7 +4,7 @@ use super::frames::{WorkOffset, offset_name};
 use super::radius::RADIUS_WEAR;
 use super::{Language, Run, fault};
 use crate::execution::mistakes;
-use crate::moves::{Axis, AxisSet, Coordinates, Event, Move, MoveKind, Position};
+use crate::moves::{Axis, AxisSet, Event, MoveKind, Position};
 use crate::rs274::code::Action;
 use crate::text::program::Fault;
 
@@ -293,17 +293,6 @@ impl Run<'_> {
         }
         let target = self.frames.program_at(&machine);
         self.step_of(MoveKind::Rapid, target, named);
-    }
-
-    /// A rapid of the named axes in machine coordinates, whatever the frames are. Where that is in
-    /// the program frame only the machine knows; here it is as if all rotary axes stood at zero.
-    pub(super) fn machine_move(&mut self, machine: Position, named: AxisSet) {
-        self.modes.length_due = Position::default();
-        let (feed, origin) = (self.core.modes.feed, self.core.origin);
-        let coordinates = Coordinates::Machine;
-        let rapid = Move::plain(MoveKind::Rapid, machine, named, feed, origin);
-        self.emit_move(Move { coordinates, ..rapid });
-        self.frames.position = self.frames.program_at(&machine);
     }
 
     /// Where the axes are in the machine.
