@@ -56,7 +56,7 @@ pub enum Node {
     /// A function of one argument.
     Function(Function, NodeId, usize),
     /// `ATAN[y]/[x]`, degrees.
-    ArcTangent(NodeId, NodeId),
+    ArcTangent(NodeId, Option<NodeId>),
     /// `EXISTS[#n]`.
     Exists(NodeId),
     /// `a op b`, and the byte offset of the operator.

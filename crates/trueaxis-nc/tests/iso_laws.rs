@@ -219,3 +219,36 @@ fn law_g53_of_fanuc_moves_with_rapid() {
     assert_eq!(found.codes, [""; 0]);
     assert!(matches!(found.moves[3].kind, MoveKind::Arc(_)));
 }
+
+/// Angles of FANUC run from 0 to 360 (ASIN: 270 to 90), those of Haas and LinuxCNC are signed; both are the same direction.
+#[test]
+fn law_angles_of_fanuc_have_no_sign() {
+    let value = |control, text: &str| {
+        let found = run(control, &format!("G21 G0 X{text}\nM30\n"));
+        assert_eq!(found.codes, [""; 0], "{text}");
+        found.moves[0].target[Axis::X]
+    };
+    for degrees in (-175..180).step_by(10) {
+        let angle = f64::from(degrees);
+        let (sin, cos) = angle.to_radians().sin_cos();
+        let whole = angle.rem_euclid(360.0);
+        let two = format!("[ATAN[{sin:.12}]/[{cos:.12}]]");
+        let wanted = [(Fanuc, whole), (Haas, angle), (LinuxCnc, angle)];
+        for (control, wanted) in wanted {
+            assert!((value(control, &two) - wanted).abs() < 1e-6, "{control:?} {two}");
+        }
+        assert!((value(Fanuc, &two.replace("]/[", ",")) - whole).abs() < 1e-6, "{two}");
+        assert!((value(Fanuc, &format!("[ACOS[{cos:.12}]]")) - angle.abs()).abs() < 1e-6);
+        if angle.abs() < 90.0 {
+            let one = format!("[ATAN[{:.12}]]", sin / cos);
+            assert!(
+                (value(Fanuc, &one) - angle).abs() < 1e-6
+                    && (value(Haas, &one) - angle).abs() < 1e-6
+            );
+            let text = format!("[ASIN[{sin:.12}]]");
+            for (control, wanted) in wanted {
+                assert!((value(control, &text) - wanted).abs() < 1e-6, "{control:?} {text}");
+            }
+        }
+    }
+}
