@@ -252,3 +252,24 @@ fn law_angles_of_fanuc_have_no_sign() {
         }
     }
 }
+
+/// G30 of FANUC and Haas goes to machine zero and says so; LinuxCNC knows its place by G30.1.
+#[test]
+fn law_g30_says_that_its_place_is_not_known() {
+    for (block, codes) in [
+        ("G30 X0.", &["reference-point"][..]),
+        ("G91 G30 P2 X0.\nG90", &["reference-point"]),
+        ("G30 X8. P3\nG30 P4 X8.", &["reference-point"]),
+        ("X8. G30 P5", &["reference-point", "unused-word"]),
+        ("G28 X0.", &[]),
+    ] {
+        let text = format!("G21 G10 L2 P1 X20.\nG54 G0 X5.\n{block}\nX1.\nM30\n");
+        for control in [Fanuc, Haas] {
+            let found = run(control, &text);
+            assert_eq!(found.codes, codes, "{control:?} {text}");
+            assert!(found.axis(Axis::X).contains(&0.0), "{control:?} {text}");
+        }
+    }
+    let linuxcnc = run(LinuxCnc, "G21 G0 X5.\nG30.1\nX7.\nG30\nX1.\nM2\n");
+    assert_eq!((linuxcnc.codes.len(), linuxcnc.axis(Axis::X)), (0, vec![5., 7., 5., 1.]));
+}

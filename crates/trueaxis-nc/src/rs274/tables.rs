@@ -48,6 +48,7 @@ impl Run<'_> {
                 self.change_shift(shift, true);
             }
             Action::Reference(index) => self.off_contour("G28 or G30", at, |run| {
+                run.check_second_reference(index, at);
                 run.as_at_zero(|run| run.reference(usize::from(index) - 1));
                 Ok(())
             })?,
@@ -272,6 +273,20 @@ impl Run<'_> {
         self.tool_length(action, at)?;
         self.modes.length_code = code;
         Ok(())
+    }
+
+    /// G30 of FANUC: the second reference point, the third or fourth by P, is in the parameters of the control.
+    fn check_second_reference(&mut self, index: u8, at: usize) {
+        if index == 1 || !self.is_fanuc() {
+            return;
+        }
+        if self.words.look(b'P').is_some_and(|p| [2.0, 3.0, 4.0].contains(&p)) {
+            self.words.take(b'P');
+        }
+        let message = "G30 moves to machine zero here".to_owned();
+        let hint =
+            "the reference points are in the parameters of the control, which are not known here";
+        self.core.warn("reference-point", "", at, message, hint);
     }
 
     /// G28, G30: by way of the axis words to a reference point; only the named axes go there.
