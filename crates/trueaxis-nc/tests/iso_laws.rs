@@ -273,3 +273,59 @@ fn law_g30_says_that_its_place_is_not_known() {
     let linuxcnc = run(LinuxCnc, "G21 G0 X5.\nG30.1\nX7.\nG30\nX1.\nM2\n");
     assert_eq!((linuxcnc.codes.len(), linuxcnc.axis(Axis::X)), (0, vec![5., 7., 5., 1.]));
 }
+
+/// Arguments of G65 without a decimal point: Haas counts ten-thousandths of an inch or thousandths of a millimetre.
+#[test]
+fn law_arguments_without_a_point_are_small_on_haas() {
+    // D, E, F, H, M, S and T are #7 #8 #9 #11 #13 #19 #20.
+    for (letter, variable) in b"ABCIJKQRUVWXYZDEFHMST"
+        .iter()
+        .zip([1, 2, 3, 4, 5, 6, 17, 18, 21, 22, 23, 24, 25, 26, 7, 8, 9, 11, 13, 19, 20])
+    {
+        let letter = char::from(*letter);
+        let small = !"DEFHMST".contains(letter);
+        for (unit, scale, mm) in [("G20", 0.0001, 25.4), ("G21", 0.001, 1.0)] {
+            for (number, value) in
+                [("5", 5.0), (" -5", -5.0), ("5.", 5.0), ("5.0", 5.0), ("[5]", 5.0), ("#100", 5.0)]
+            {
+                let point = number.contains(['.', '[', '#']);
+                let text = format!(
+                    "{unit}\n#100=5\nG65 P9010 {letter}{number}\nM30\nO9010\nG0 X[#{variable}*1000.]\nM99\n"
+                );
+                for control in [Fanuc, Haas] {
+                    let found = run(control, &text);
+                    let unit = if control == Haas && small && !point { scale } else { 1.0 };
+                    assert_eq!(found.codes, [""; 0], "{text}");
+                    assert_near(&found.axis(Axis::X), &[value * unit * 1000.0 * mm], &text);
+                }
+            }
+        }
+    }
+}
+
+/// G10 L12 and L13 of Haas are diameters, those of FANUC radii; L1 of Haas is the wear of the length.
+#[test]
+fn law_g10_l12_of_haas_is_a_diameter() {
+    let radius = |control, text: &str| {
+        let program =
+            Program::new("p", format!("{text}\nG41 D5 G1 X5. F100.\nX9.\nM30\n").into(), control);
+        let mut radius = 0.0;
+        let _ = interpret(&program, &NoLibrary, &Settings::default(), &mut |s| {
+            if let Step::Event(Event::Compensation { radius_mm, .. }, _) = s {
+                radius = radius_mm;
+            }
+        });
+        radius
+    };
+    for (text, fanuc) in [
+        ("G21 G10 L12 P5 R8.", 8.0),
+        ("G21 G10 G90 P5 R8. L12\nG10 L13 P5 R-0.2", 7.8),
+        ("G21 G10 L12 P5 R8.\nG91 G10 L12 P5 R1.\nG90", 9.0),
+        ("G20 G10 L12 P5 R.375\nG10 P5 L13 R0.01", 0.385 * 25.4),
+    ] {
+        assert_near(&[radius(Fanuc, text), radius(Haas, text)], &[fanuc, fanuc / 2.0], text);
+    }
+    let text = "G21 G10 L10 P1 R50.\nG10 L1 P1 R2.\nG43 H1 G0 Z0.\nM30\n";
+    assert_near(&run(Haas, text).axis(Axis::Z), &[52.0], text);
+    assert_near(&run(Fanuc, text).axis(Axis::Z), &[2.0], text);
+}

@@ -374,7 +374,7 @@ impl Run<'_> {
                 Ok(())
             }
             None | Some(1 | 10..=13) if fanuc => {
-                self.set_length(number, level.unwrap_or(1.0) as u32);
+                self.set_length(number, level.unwrap_or(10.0) as u32);
                 Ok(())
             }
             Some(2 | 20) => self.set_offset(number, level == Some(20.0), at),
@@ -468,8 +468,16 @@ impl Run<'_> {
     }
 
     /// FANUC G10 L10, L11 (wear), L12 and L13 (radius and its wear) P… R…; L1 is L10.
+    ///
+    /// # Source
+    /// Haas Automation, "Mill Operator's Manual", G10: L12 and L13 are diameters (Setting 40), L1 is L11.
     fn set_length(&mut self, number: u32, level: u32) {
         let Some(value) = self.length(b'R') else { return };
+        let (level, value) = match (self.is_haas(), level) {
+            (true, 1) => (11, value),
+            (true, 12 | 13) => (level, value / 2.0),
+            _ => (level, value),
+        };
         let length = self.frames.tools.get(&number).copied().unwrap_or_default();
         let old = match level {
             11 => self.frames.wear.get(&number).copied().unwrap_or_default(),

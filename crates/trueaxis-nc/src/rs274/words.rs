@@ -228,7 +228,9 @@ impl Run<'_> {
                 b'^' => polar::put(&mut words.polar[1], '^', value, *offset)?,
                 // Which spindle turns does not move the tool.
                 b'$' => {}
-                _ if gathering.is_argument(*letter) => words.arguments.push((*letter, value)),
+                _ if gathering.is_argument(*letter) => {
+                    words.arguments.push((*letter, value * self.argument_unit(*letter, *offset)));
+                }
                 b'c' | b'r' => words.corner = Some((*letter == b'r', value, *offset)),
                 b'N' => self.modes.last[1] = value,
                 b'G' if self.core.own_number('G', value, *offset) => {

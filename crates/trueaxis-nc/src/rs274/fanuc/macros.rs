@@ -98,6 +98,20 @@ impl Run<'_> {
         }
     }
 
+    /// What a number without a decimal point counts as an argument of a macro.
+    ///
+    /// # Source
+    /// Haas Automation, "Mill Operator's Manual", "Integer Argument Passing (no decimal point)": 0.0001 (metric 0.001),
+    /// 1 for the other letters.
+    pub(in crate::rs274) fn argument_unit(&self, letter: u8, place: usize) -> f64 {
+        let scaled = self.is_haas() && b"ABCIJKQRUVWXYZ".contains(&letter);
+        match self.core.modes.inches {
+            _ if !scaled || self.written(place) != (true, false) => 1.0,
+            true => 0.0001,
+            false => 0.001,
+        }
+    }
+
     /// The modal macro of this depth of calls.
     fn modal_here(&self, each_block: bool) -> Option<&ModalMacro> {
         let modal = self.modes.macros.last()?;
