@@ -329,3 +329,78 @@ fn law_g10_l12_of_haas_is_a_diameter() {
     assert_near(&run(Haas, text).axis(Axis::Z), &[52.0], text);
     assert_near(&run(Fanuc, text).axis(Axis::Z), &[2.0], text);
 }
+
+/// Q of M98 is the block number at which a subprogram of FANUC begins, after the move of the block and at each repeat.
+#[test]
+fn law_q_of_m98_is_where_the_subprogram_begins() {
+    let sub = "M30\nO2\nX20.\nN5 X21.\nN10 X22.\nX23.\nM99\nO3\nN10 X99.\nN40 X98.\nM99\n";
+    for (call, wanted) in [
+        ("M98 P2 Q10", &[1., 22., 23., 3.][..]),
+        ("Q10 P2 M98 X2.", &[1., 2., 22., 23., 3.]),
+        ("M98 P2", &[1., 20., 21., 22., 23., 3.]),
+        ("N10 M98 P2 Q5 L2", &[1., 21., 22., 23., 21., 22., 23., 3.]),
+        ("M98 P20002 Q10", &[1., 22., 23., 22., 23., 3.]),
+        ("M98 P3 Q10", &[1., 99., 98., 3.]),
+    ] {
+        let text = format!("O1\nG21 G0 X1.\n{call}\nX3.\n{sub}");
+        let found = run(Fanuc, &text);
+        assert_eq!(found.codes, [""; 0], "{text}");
+        assert_near(&found.axis(Axis::X), wanted, &text);
+    }
+    for missing in ["M98 P2 Q40", "M98 P2 Q11", "M98 P2 Q10.5", "M98 P2 Q-10"] {
+        let found = run(Fanuc, &format!("O1\nG21 G0 X1.\n{missing}\nX3.\n{sub}"));
+        assert_eq!(found.codes, ["missing-label"], "{missing}");
+    }
+    let haas = run(Haas, &format!("O1\nG21 G0 X1.\nM98 P2 Q10\nX3.\n{sub}"));
+    assert_eq!(haas.axis(Axis::X)[1], 20.0);
+}
+
+/// J of G74 and G84 on Haas: the tap goes out so many times as fast, with the spindle; nothing else changes.
+#[test]
+fn law_j_of_a_tap_makes_the_way_out_faster() {
+    for cycle in ["G84", "G74"] {
+        for (begin, end) in [("X1. Z-5. R2.", ""), ("Z-5. R2.", " X1."), ("G98 R2. Z-5. X1.", "")] {
+            for (j, times) in [("", 1.0), (" J2", 2.0), (" J1.", 1.0), (" J4", 4.0)] {
+                let text = format!(
+                    "G21 S500 M3\nG0 X0. Z10.\n{cycle} F400. {begin}{j}{end}\nX2.\nG80 G1 X3.\nM30\n"
+                );
+                let found = run(Haas, &text);
+                assert_eq!(found.codes, [""; 0], "{text}");
+                let z = |m: &Move| m.target[Axis::Z];
+                let cuts: Vec<_> =
+                    found.moves.iter().filter(|m| m.kind == MoveKind::Linear).collect();
+                assert_eq!(cuts.len(), 5, "{text}");
+                for (cut, wanted) in cuts.iter().zip([400., 400. * times, 400., 400. * times, 400.])
+                {
+                    assert!((cut.feed.value - wanted).abs() < 1e-9, "{text} {}", z(cut));
+                }
+            }
+        }
+    }
+    assert_eq!(
+        run(Fanuc, "G21 S500 M3\nG0 Z10.\nG84 X1. Z-5. R2. J2 F400.\nG80\nM30\n").codes,
+        ["unused-word"]
+    );
+}
+
+/// Codes of Haas without effect on the path; M96 is a jump that is not executed.
+#[test]
+fn law_outputs_of_haas_are_known_and_m96_is_warned_of() {
+    for (block, codes) in [
+        ("M59 P2", &[][..]),
+        ("X2. M69 P1134", &[]),
+        ("M75 G1 F10. X2.", &[]),
+        ("M78\nM79", &[]),
+        ("N5 M96 P10 Q18\nN10", &["not-applied"]),
+        ("X2. M96 Q1 P10\nN10 M96 P10 Q8", &["not-applied"]),
+        ("G268 X1. Y2. I0 J0 K30.\nG269", &[]),
+        ("G268 X1. Y2. I0 J0 K30.\nG269 G90", &[]),
+    ] {
+        let text = format!("G21 G0 X1. Y0.\n{block}\nG0 X3. Y0.\nM30\n");
+        let found = run(Haas, &text);
+        assert_eq!(found.codes, codes, "{text}");
+        assert_near(&found.machine.last().unwrap().0[..3], &[3.0, 0.0, 0.0], &text);
+        let second = found.machine[1][Axis::X];
+        assert_eq!(second, if block.contains("X2.") { 2.0 } else { 3.0 }, "{text}");
+    }
+}

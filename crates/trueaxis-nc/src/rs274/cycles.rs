@@ -3,7 +3,7 @@
 use super::{Run, fault};
 use crate::execution::drilling::{Drill, MOST_PECKS, Stroke, check_pecks, pecks, reversed};
 use crate::execution::mistakes;
-use crate::moves::{Axis, Event, MoveKind, Position, SpindleDirection};
+use crate::moves::{Axis, Event, Feed, FeedMode, MoveKind, Position, SpindleDirection};
 use crate::rs274::code::{Cycle, Motion};
 use crate::text::program::Fault;
 use trueaxis_cycles::pattern::{Circle, MOST_HOLES, Row, peck_depths};
@@ -20,6 +20,8 @@ pub(super) struct CycleMemory {
     /// HAAS: the first peck and by how much each is less; the peck is then the least.
     shrink_mm: Option<[f64; 2]>,
     dwell_s: f64,
+    /// HAAS: how much faster a tap goes out than in.
+    faster: Option<f64>,
     /// Where the drill stood when the cycles began.
     initial_mm: Option<f64>,
     /// The block itself writes the G code of its cycle.
@@ -71,6 +73,7 @@ impl Run<'_> {
         }
         self.core.modes.check_feed(at)?;
         self.shorter_pecks(cycle, at)?;
+        self.faster_out(cycle);
         let hole = self.hole(cycle, at)?;
         self.check_depth(hole.axis, at);
         let repeats = self.words.take(b'L').or_else(|| {
@@ -223,6 +226,14 @@ impl Run<'_> {
         Ok(())
     }
 
+    /// J of G74 and G84 of HAAS ("Mill Operator's Manual"): J2 goes out twice as fast as in.
+    fn faster_out(&mut self, cycle: Cycle) {
+        let taps = matches!(cycle, Cycle::TapLeft | Cycle::TapRight) && self.is_haas();
+        if taps && self.words.look(b'J').is_some_and(|j| (0.1..=100.0).contains(&j)) {
+            self.modes.cycle.faster = self.words.take(b'J');
+        }
+    }
+
     fn hole(&mut self, cycle: Cycle, at: usize) -> Result<Hole, Fault> {
         let axis = self.core.modes.plane.axes()[2];
         let now = self.frames.position[axis];
@@ -300,7 +311,17 @@ impl Run<'_> {
                 strokes.extend([turn(SpindleDirection::Stopped), turn(reversed(into)), wait]);
                 // FANUC feeds out to R and goes on with rapid, LinuxCNC feeds all the way.
                 let out_of = if self.is_fanuc() { hole.r } else { hole.clear };
+                let speed =
+                    |times: f64| Stroke::Event(Event::SpindleSpeed(times * self.core.modes.speed));
+                let faster = self.modes.cycle.faster;
+                if let Some(times) = faster {
+                    let feed = self.core.modes.feed;
+                    let value = if feed.mode == FeedMode::PerMinute { times } else { 1.0 };
+                    strokes.push(Stroke::Feed(Feed { value: value * feed.value, ..feed }));
+                    strokes.push(speed(times));
+                }
                 strokes.extend([Stroke::Linear(out_of), turn(SpindleDirection::Stopped)]);
+                strokes.extend(faster.map(|_| speed(1.0)));
                 strokes.push(turn(turning));
                 strokes.extend((out_of != hole.clear).then_some(out));
             }

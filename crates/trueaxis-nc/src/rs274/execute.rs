@@ -1,6 +1,7 @@
 //! Executes the words of a block in the order of RS274/NGC.
 
 use super::{Language, Next, Passage, Run, fault};
+use crate::dialect::Control;
 use crate::execution::corners::{Corner, is_size};
 use crate::execution::mistakes;
 use crate::moves::{Axis, AxisSet, Event, Move, MoveKind, PathControl, Position};
@@ -179,14 +180,18 @@ impl Run<'_> {
         Ok(Next::Following)
     }
 
-    /// P and L of a call or return, which follow the move of their block: no cycle may take them as its own.
-    fn words_of_call(&mut self, actions: &[(Action, usize)]) -> [Option<(u8, f64, usize)>; 2] {
+    /// P, L and Q of a call or return, which follow the move of their block: no cycle may take them as its own.
+    fn words_of_call(&mut self, actions: &[(Action, usize)]) -> [Option<(u8, f64, usize)>; 3] {
         let calls = |a: &Action| matches!(a, Action::Call | Action::LocalCall | Action::Return);
         if !actions.iter().any(|(a, _)| calls(a)) {
-            return [None; 2];
+            return [None; 3];
         }
-        let words = &mut self.words;
-        [b'P', b'L'].map(|l| words.take_away(l).map(|value| (l, value, words.place(l))))
+        let (words, begins) = (&mut self.words, self.core.programs[0].dialect().control);
+        b"PLQ".map(|l| {
+            let own = l != b'Q' || begins == Control::Fanuc;
+            let value = if own { words.take_away(l) } else { None };
+            value.map(|value| (l, value, words.place(l)))
+        })
     }
 
     fn call_or_return(&mut self, action: Action, block: &Block) -> Result<Next, Fault> {
@@ -370,6 +375,9 @@ impl Run<'_> {
             Action::Note(name) => {
                 if name.starts_with("M97") && self.words.look(b'P').is_some() {
                     self.core.left_out("M97 P, a call of HAAS (--control haas),", at);
+                }
+                if self.is_haas() && name.starts_with("M96") {
+                    self.core.left_out("M96 P Q, a jump where an input is 0,", at);
                 }
                 self.words.take_parameters();
                 self.core.emit(Event::Note(name));
