@@ -386,7 +386,7 @@ impl Program {
                 _ => {}
             }
         }
-        let letters: &[u8] = if self.dialect.o_words { b"on(" } else { b"noiweg(:" };
+        let letters: &[u8] = if self.dialect.o_words { b"on(" } else { b"noiwedg(:" };
         (first.is_some_and(|b| letters.contains(&b)), end)
     }
 }

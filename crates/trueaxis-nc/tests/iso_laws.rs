@@ -17,7 +17,8 @@ fn run(control: Control, text: &str) -> Run {
     let program = Program::new("p", text.as_bytes().to_vec(), control);
     let (mut frame, mut tool) = (Frame::IDENTITY, Position::default());
     let (mut moves, mut machine) = (Vec::new(), Vec::new());
-    let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |s| match s {
+    let settings = Settings { most_jumps: 10_000, ..Settings::default() };
+    let outcome = interpret(&program, &NoLibrary, &settings, &mut |s| match s {
         Step::Move(m) => {
             machine.push(frame.place(&m.target).plus(&tool));
             moves.push(m);
@@ -402,5 +403,28 @@ fn law_outputs_of_haas_are_known_and_m96_is_warned_of() {
         assert_near(&found.machine.last().unwrap().0[..3], &[3.0, 0.0, 0.0], &text);
         let second = found.machine[1][Axis::X];
         assert_eq!(second, if block.contains("X2.") { 2.0 } else { 3.0 }, "{text}");
+    }
+}
+
+/// DO … END without WHILE is a loop that only a GOTO leaves; without one the limit of loops ends it.
+#[test]
+fn law_do_without_while_is_left_by_goto() {
+    for control in [Fanuc, Haas] {
+        for text in [
+            "#1=0\nDO1\n#1=#1+1\nG0 X#1\nIF[#1 GE 3]GOTO 10\nEND1\nN10 X50.\nM30\n",
+            "#1=0\nN3 DO 2 (TURN)\n#1=#1+1\nIF[#1 GT 3]GOTO 7\nG0 X#1\nN4 END 2\nN7 X50.\nM30\n",
+            "#1=0\nDO3\n#2=0\nWHILE[#2 LT 1]DO1\n#2=#2+1\n#1=#1+1\nG0 X#1\nEND1\nIF[#1 EQ 3]GOTO 10\nEND3\nN10 X50.\nM30\n",
+            "#1=0\nWHILE[#1 LT 3]DO1\nDO2\n#1=#1+1\nG0 X#1\nGOTO 6\nEND2\nN6\nEND1\nX50.\nM30\n",
+        ] {
+            let found = run(control, &format!("G21\n{text}"));
+            assert_eq!(found.codes, [""; 0], "{text}");
+            assert_near(&found.axis(Axis::X), &[1., 2., 3., 50.], text);
+        }
+        assert_eq!(run(control, "DO1\n#1=1\nEND1\nM30\n").codes, ["endless-loop"]);
+        assert_eq!(run(control, "DO1\n#1=1\nM30\n").codes, ["missing-endwhile"]);
+        let program = Program::new("p", b"G0 X1.\nEND1\nM30\n".to_vec(), control);
+        let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |_| {});
+        let text = outcome.problems.iter().next().unwrap().to_string();
+        assert!(text.contains("END of 1 without") && !text.contains("EndWhile"), "{text}");
     }
 }
