@@ -234,7 +234,6 @@ fn law_a_program_with_parameters_may_be_named_by_l_and_a_number() {
         ("L140", "N10 PROC L140 ( REAL NUM , INT DEPTH=3 ) SAVE\nG0 X=NUM\nM17\n"),
         ("L0123", "PROC L0123(INT NUM)\nG0 X=NUM\nRET\n"),
         ("HOLES", "PROC HOLES(INT NUM)\nG0 X=NUM\nRET\n"),
-        ("HOLES2", "PROC HOLES2(INT NUM)\nG0 X=NUM\nRET\n"),
     ] {
         for (call, wanted) in [("(2)", 2.0), ("(R1)", 7.0), ("(1+3)", 4.0)] {
             let main = format!("R1=7\n{name}{call}\nG0 Y1\nM30\n");
