@@ -181,6 +181,8 @@ pub enum Item {
     Mark(usize),
     /// A `)` without its `(`, after a comment.
     LooseEnd(usize),
+    /// A `/` within a block: what follows is optional.
+    Optional(usize),
 }
 
 /// One parsed line of a program.

@@ -428,3 +428,71 @@ fn law_do_without_while_is_left_by_goto() {
         assert!(text.contains("END of 1 without") && !text.contains("EndWhile"), "{text}");
     }
 }
+
+/// A `/` within a block of FANUC: the rest of the block is executed with the optional blocks only.
+#[test]
+fn law_a_slash_within_a_block_makes_its_rest_optional() {
+    let places = |control, text: &str, optional: bool| {
+        let program = Program::new("p", text.as_bytes().to_vec(), control);
+        let settings = Settings { skipped_blocks_too: optional, ..Settings::default() };
+        let mut places = Vec::new();
+        let outcome = interpret(&program, &NoLibrary, &settings, &mut |s| {
+            if let Step::Move(m) = s {
+                places.push([m.target.0[0], m.target.0[1]]);
+            }
+        });
+        let codes: Vec<_> = outcome.problems.iter().map(|p| p.code).collect();
+        (places, codes)
+    };
+    let whole = |text: &str| format!("G21 G0 X1. F100.\n{text}\nX50. Y50.\nM30\n");
+    for (rest, plain, without) in [
+        ("X10. /Y10.", "X10. Y10.", "X10."),
+        ("X10. /2 Y10.", "X10. Y10.", "X10."),
+        ("N5 X[20/2] / Y10. F[6/2]", "X10. Y10.", "X10."),
+        ("X10./Y10.\n/X11.", "X10. Y10.\nX11.", "X10."),
+        ("#1=20/2\nX#1 /Y#1", "#1=10\nX#1 Y#1", "#1=10\nX#1"),
+        ("X10. / M30", "X10. M30", "X10."),
+    ] {
+        assert_eq!(places(Fanuc, &whole(rest), true), places(Fanuc, &whole(plain), true), "{rest}");
+        let skipped = places(Fanuc, &whole(without), false);
+        assert_eq!(places(Fanuc, &whole(rest), false), skipped, "{rest}");
+    }
+    // A jump stands alone in its block, optional or not; Haas has slashes at the head of a block only.
+    for (control, text) in [(Fanuc, "X10. /GOTO 7\nN7"), (Haas, "X10. /Y10.")] {
+        assert_eq!(places(control, &whole(text), true).1, ["unexpected-sign"]);
+    }
+}
+
+/// Of two G codes of one modal group in a block the last holds on FANUC; Haas and LinuxCNC refuse them.
+#[test]
+fn law_the_last_code_of_a_group_holds_on_fanuc() {
+    for (block, plain) in [
+        ("G0 G1 X10.", "G1 X10."),
+        ("G1 G0 X10.", "G0 X10."),
+        ("G91 X10. G90", "G90 X10."),
+        ("N7 G90 G91 G0 X10.", "G91 G0 X10."),
+        ("G55 G54 X10.", "G54 X10."),
+        ("G20 G21 X10.", "G21 X10."),
+        ("G17 G18 G2 X10. Z0. R5. G19 G18", "G18 G2 X10. Z0. R5."),
+    ] {
+        let text =
+            |block: &str| format!("G21 G10 L2 P2 X5.\nG0 X1. F100.\n{block}\nG90 G1 X20.\nM30\n");
+        let (found, plain) = (run(Fanuc, &text(block)), run(Fanuc, &text(plain)));
+        assert!(
+            !found.codes.is_empty() && found.codes.iter().all(|c| *c == "conflicting-codes"),
+            "{block}"
+        );
+        assert_eq!(plain.codes, [""; 0], "{block}");
+        assert_eq!(found.machine, plain.machine, "{block}");
+        let kinds = |r: &Run| r.moves.iter().map(|m| m.kind).collect::<Vec<_>>();
+        assert_eq!(kinds(&found), kinds(&plain), "{block}");
+        for control in [Haas, LinuxCnc] {
+            let refused = run(control, &text(block));
+            assert_eq!(refused.moves.len(), 1, "{control:?} {block}");
+            assert!(refused.codes.contains(&"conflicting-codes"), "{control:?} {block}");
+        }
+    }
+    // The same code twice is one; others stay refused.
+    assert_eq!(run(Fanuc, "G21 G90 G90 G0 X1.\nM30\n").codes, [""; 0]);
+    assert_eq!(run(Fanuc, "G21 G0 X1.\nG28 G92 X0.\nM30\n").codes, ["conflicting-codes"]);
+}

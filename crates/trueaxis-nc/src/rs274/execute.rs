@@ -15,6 +15,12 @@ impl Run<'_> {
         if passage.block.skip.is_some() && !self.core.settings.skipped_blocks_too {
             return Ok(Next::Following);
         }
+        let optional = passage.block.items.iter().position(|i| matches!(i, Item::Optional(_)));
+        if let Some(count) = optional.filter(|_| !self.core.settings.skipped_blocks_too) {
+            let mut block = passage.block.clone();
+            block.items.truncate(count);
+            return self.block(Passage { block: &block, ..passage });
+        }
         if let Some(first) = passage.block.faults.first() {
             for later in &passage.block.faults[1..] {
                 self.core.report(later.clone());
