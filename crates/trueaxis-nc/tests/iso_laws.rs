@@ -9,6 +9,8 @@ struct Run {
     moves: Vec<Move>,
     /// Where the axes are after each move.
     machine: Vec<Position>,
+    /// Each new speed of the spindle.
+    speeds: Vec<f64>,
     /// The codes of the problems.
     codes: Vec<&'static str>,
 }
@@ -16,18 +18,19 @@ struct Run {
 fn run(control: Control, text: &str) -> Run {
     let program = Program::new("p", text.as_bytes().to_vec(), control);
     let (mut frame, mut tool) = (Frame::IDENTITY, Position::default());
-    let (mut moves, mut machine) = (Vec::new(), Vec::new());
+    let (mut moves, mut machine, mut speeds) = (Vec::new(), Vec::new(), Vec::new());
     let settings = Settings { most_jumps: 10_000, ..Settings::default() };
     let outcome = interpret(&program, &NoLibrary, &settings, &mut |s| match s {
         Step::Move(m) => {
             machine.push(frame.place(&m.target).plus(&tool));
             moves.push(m);
         }
+        Step::Event(Event::SpindleSpeed(speed), _) => speeds.push(speed),
         Step::Event(Event::Frame(f), _) => frame = f,
         Step::Event(Event::ToolLength(length), _) => tool = length,
         Step::Event(..) => {}
     });
-    Run { moves, machine, codes: outcome.problems.iter().map(|p| p.code).collect() }
+    Run { moves, machine, speeds, codes: outcome.problems.iter().map(|p| p.code).collect() }
 }
 
 impl Run {
@@ -367,6 +370,9 @@ fn law_j_of_a_tap_makes_the_way_out_faster() {
                 );
                 let found = run(Haas, &text);
                 assert_eq!(found.codes, [""; 0], "{text}");
+                let (fast, own) = (500.0 * times, 500.0);
+                let wanted = if j.is_empty() { vec![own] } else { vec![own, fast, own, fast, own] };
+                assert_eq!(found.speeds, wanted, "{text}");
                 let z = |m: &Move| m.target[Axis::Z];
                 let cuts: Vec<_> =
                     found.moves.iter().filter(|m| m.kind == MoveKind::Linear).collect();
@@ -495,4 +501,27 @@ fn law_the_last_code_of_a_group_holds_on_fanuc() {
     // The same code twice is one; others stay refused.
     assert_eq!(run(Fanuc, "G21 G90 G90 G0 X1.\nM30\n").codes, [""; 0]);
     assert_eq!(run(Fanuc, "G21 G0 X1.\nG28 G92 X0.\nM30\n").codes, ["conflicting-codes"]);
+}
+
+/// #2001 is the length of tool 1 on Haas and #2201 its wear, the other way round on FANUC; #10001 and #11001 of Haas are
+/// variables like others.
+#[test]
+fn law_length_variables_of_haas_are_its_own() {
+    let z = |control, text: &str| {
+        let found = run(control, &format!("G21 {text}\nG43 H1 G0 Z0.\nM30\n"));
+        assert_eq!(found.codes, [""; 0], "{text}");
+        found.machine[0][Axis::Z]
+    };
+    for (text, haas, fanuc) in [
+        ("#2001=50.\n#2201=2.", 52.0, 52.0),
+        ("G10 L10 P1 R50.\n#2001=40.", 40.0, 90.0),
+        ("G10 P1 R50. L10\n#2201=[2.5]", 52.5, 2.5),
+        ("G10 L10 P1 R50.\nG10 L11 P1 R2.\n#10001=7.\n#11001=9.", 52.0, 16.0),
+        ("G10 L10 P1 R50.\nG10 L11 P1 R2.\n#100=#2001\nG10 L10 P1 R#100", 52.0, 4.0),
+        ("#10001=7.\nG10 L10 P1 R[#10001*2]", 14.0, 21.0),
+    ] {
+        assert_near(&[z(Haas, text), z(Fanuc, text)], &[haas, fanuc], text);
+    }
+    let inches = run(Haas, "G20\n#2001=2.\nG43 H1 G0 Z0.\nM30\n");
+    assert_near(&inches.axis(Axis::Z), &[50.8], "inches");
 }
