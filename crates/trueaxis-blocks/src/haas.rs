@@ -12,12 +12,12 @@ use crate::fanuc;
 /// it does not list is as on FANUC. The first entry of a code counts.
 pub(crate) static DIALECT: Dialect = Dialect {
     control: Control::Haas,
-    g_codes: &joined::<19, 109, 128>(G_CODES, fanuc::ALL_G_CODES),
-    m_codes: &joined::<5, 22, 27>(M_CODES, fanuc::ALL_M_CODES),
+    g_codes: &joined::<20, 109, 129>(G_CODES, fanuc::ALL_G_CODES),
+    m_codes: &joined::<11, 22, 33>(M_CODES, fanuc::ALL_M_CODES),
     ..fanuc::DIALECT
 };
 
-const G_CODES: [(u16, A); 19] = [
+const G_CODES: [(u16, A); 20] = [
     (120, A::CircularPocket { ccw: false }),
     (130, A::CircularPocket { ccw: true }),
     (350, A::NotApplied("G35 automatic tool diameter")),
@@ -37,12 +37,19 @@ const G_CODES: [(u16, A); 19] = [
     (2540, A::DynamicOffset(true)),
     (2550, A::DynamicOffset(false)),
     (2680, A::TiltedPlane { further: false }),
+    (2690, A::RotationOff),
 ];
 
-const M_CODES: [(u16, A); 5] = [
+const M_CODES: [(u16, A); 11] = [
     (31, A::Note("M31 chip conveyor")),
     (33, A::Note("M33 chip conveyor off")),
+    (59, A::Note("M59 output on")),
+    (69, A::Note("M69 output off")),
+    (75, A::Note("M75 reference point of a probe")),
+    (78, A::Note("M78 alarm if a signal is found")),
+    (79, A::Note("M79 alarm if no signal is found")),
     (88, A::Note("M88 coolant through the spindle")),
     (89, A::Note("M89 coolant through the spindle off")),
+    (96, A::Note("M96 jump where an input is 0")),
     (97, A::LocalCall),
 ];

@@ -195,6 +195,7 @@ impl<'s, 'b> Parser<'s, 'b> {
                 TokenKind::Symbol if self.source[token.start] == b'#' => self.assignment(),
                 TokenKind::Symbol if self.source[token.start] == b':' => self.program_number(),
                 TokenKind::Symbol if self.is_corner(token) => self.corner_word(),
+                TokenKind::Symbol if self.is_optional(token) => self.optional_rest(token),
                 TokenKind::Name if self.dialect.macro_words => self.called_name(),
                 TokenKind::Mark => {
                     self.block.items.push(Item::Mark(token.start));
@@ -225,6 +226,24 @@ impl<'s, 'b> Parser<'s, 'b> {
         self.advance();
         let Some(value) = self.value() else { return false };
         self.block.items.push(Item::Word { letter: letter.to_ascii_lowercase(), value, offset });
+        true
+    }
+
+    /// `/` within a block of FANUC, with the number of its switch or not.
+    ///
+    /// # Source
+    /// FANUC Series 16i operator's manual, "Program configuration", optional block skip: where the slash is not at the head
+    /// of the block, what stands between it and the end of the block is ignored.
+    fn is_optional(&self, token: Token) -> bool {
+        self.dialect.control == Control::Fanuc && self.source[token.start] == b'/'
+    }
+
+    fn optional_rest(&mut self, token: Token) -> bool {
+        self.block.items.push(Item::Optional(token.start));
+        self.advance();
+        if self.token.is_some_and(|t| t.kind == TokenKind::Number && t.start == token.end) {
+            self.advance();
+        }
         true
     }
 

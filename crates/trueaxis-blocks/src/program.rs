@@ -56,7 +56,7 @@ pub enum Node {
     /// A function of one argument.
     Function(Function, NodeId, usize),
     /// `ATAN[y]/[x]`, degrees.
-    ArcTangent(NodeId, NodeId),
+    ArcTangent(NodeId, Option<NodeId>),
     /// `EXISTS[#n]`.
     Exists(NodeId),
     /// `a op b`, and the byte offset of the operator.
@@ -181,6 +181,8 @@ pub enum Item {
     Mark(usize),
     /// A `)` without its `(`, after a comment.
     LooseEnd(usize),
+    /// A `/` within a block: what follows is optional.
+    Optional(usize),
 }
 
 /// One parsed line of a program.
@@ -386,7 +388,7 @@ impl Program {
                 _ => {}
             }
         }
-        let letters: &[u8] = if self.dialect.o_words { b"on(" } else { b"noiweg(:" };
+        let letters: &[u8] = if self.dialect.o_words { b"on(" } else { b"noiwedg(:" };
         (first.is_some_and(|b| letters.contains(&b)), end)
     }
 }

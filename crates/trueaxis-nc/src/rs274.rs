@@ -12,6 +12,7 @@ mod fanuc;
 mod flow;
 mod frames;
 mod linuxcnc;
+mod machine_place;
 mod parameters;
 mod quick;
 mod radius;
@@ -26,6 +27,7 @@ use std::cell::Cell;
 use std::collections::HashMap;
 use std::rc::Rc;
 
+use trueaxis_blocks::Control;
 pub(crate) use trueaxis_blocks::code;
 
 use crate::execution::{Core, Language, Next, Outcome};
@@ -175,6 +177,10 @@ impl<'r> Run<'r> {
     /// The program is one of FANUC, not of LinuxCNC.
     fn is_fanuc(&self) -> bool {
         self.core.programs[0].dialect().macro_words
+    }
+
+    fn is_haas(&self) -> bool {
+        self.core.programs[0].dialect().control == Control::Haas
     }
 
     fn quick_or_block(

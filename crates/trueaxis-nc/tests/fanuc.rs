@@ -55,7 +55,7 @@ fn two_letters_of_a_macro_word_are_enough() {
 fn functions_of_two_arguments() {
     let text = "#1=3\nG0 X[POW[#1-1,3]]\nX[POW[4,0.5]+1]\nX[ATAN[1,-1]]\nX[ATAN[-1,#1-4]]\nX[ATAN[1]/[-1]]\nX[ATAN[1]]\nX[-POW[2,-1]*2]\nM30\n";
     let found = path(Axis::X, text, &NoLibrary);
-    let wanted = [8.0, 3.0, 135.0, -135.0, 135.0, 45.0, -1.0];
+    let wanted = [8.0, 3.0, 135.0, 225.0, 135.0, 45.0, -1.0];
     assert!(found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?}");
     assert_eq!(found.len(), wanted.len());
     for (control, text, code) in [

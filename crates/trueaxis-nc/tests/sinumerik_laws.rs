@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use trueaxis_nc::moves::Coordinates;
 use trueaxis_nc::sinumerik::read_archive;
-use trueaxis_nc::{Control, NoLibrary, Program, Settings, Step, interpret};
+use trueaxis_nc::{Control, Library, NoLibrary, Program, Settings, Step, interpret};
 
 /// Pieces that programs are made of, and some that they are not.
 const PIECES: [&str; 100] = [
@@ -212,6 +212,40 @@ proptest! {
         let last = last.unwrap();
         for (ours, wanted) in last.0.iter().zip(place) {
             prop_assert!((ours - wanted).abs() < 1e-9, "{last:?}");
+        }
+    }
+}
+
+/// One program, whatever its name.
+struct Sub(&'static str);
+
+impl Library for Sub {
+    fn text(&self, name: &str) -> Result<Vec<u8>, String> {
+        let known = name.ends_with(".SPF");
+        if known { Ok(self.0.as_bytes().to_vec()) } else { Err("none".to_owned()) }
+    }
+}
+
+/// A program with parameters may be named by L and a number, too.
+#[test]
+fn law_a_program_with_parameters_may_be_named_by_l_and_a_number() {
+    for (name, text) in [
+        ("L140", "PROC L140(INT NUM)\nG0 X=NUM\nRET\n"),
+        ("L140", "N10 PROC L140 ( REAL NUM , INT DEPTH=3 ) SAVE\nG0 X=NUM\nM17\n"),
+        ("L0123", "PROC L0123(INT NUM)\nG0 X=NUM\nRET\n"),
+        ("HOLES", "PROC HOLES(INT NUM)\nG0 X=NUM\nRET\n"),
+    ] {
+        for (call, wanted) in [("(2)", 2.0), ("(R1)", 7.0), ("(1+3)", 4.0)] {
+            let main = format!("R1=7\n{name}{call}\nG0 Y1\nM30\n");
+            let program = Program::new("p", main.into_bytes(), Control::Sinumerik840d);
+            let mut x = Vec::new();
+            let outcome = interpret(&program, &Sub(text), &Settings::default(), &mut |s| {
+                if let Step::Move(m) = s {
+                    x.push(m.target.0[0]);
+                }
+            });
+            let problems: Vec<_> = outcome.problems.iter().map(ToString::to_string).collect();
+            assert_eq!((x, problems), (vec![wanted, wanted], vec![]), "{name}{call} {text}");
         }
     }
 }

@@ -290,7 +290,7 @@ fn law_a_cut_begins_where_it_should_after_reference_points_in_increments() {
         ("i5-engraver", Control::Fanuc, "G91 G28 A0 C0\nG90 G0 X10. Y-10.\nZ50.\n"),
         ("i5-engraver", Control::Fanuc, "G91 G28 Z0.\nG28 A0 C0\nG90 G0 X10. Y-10.\nZ50.\n"),
         ("i5-engraver", Control::Haas, "G91 G53 G0 A0 C0\nG90 G0 X10. Y-10.\nZ50.\n"),
-        ("i5-engraver", Control::LinuxCnc, "G91\nG53 G0 A0 C0\nG90 G0 X5.\nZ50.\n"),
+        ("i5-engraver", Control::LinuxCnc, "G53 G0 A0 C0\nG91 G0 X-5.\nG90 Z50.\n"),
         ("i5-engraver", Control::Fanuc, "G91 G28 Z0.\nG91 G0 Z-30.\nX5.\nZ-10.\nG90\n"),
         ("three-axis-mill", Control::Fanuc, "G91 G28 Z0.\nG91 G0 Z-30.\nX5.\nZ-10.\nG90\n"),
         ("i5-engraver", Control::Sinumerik840d, "G91 G0 SUPA X1\nG0 X5\nZ-5\nG90\n"),

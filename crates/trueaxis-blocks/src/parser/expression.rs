@@ -232,12 +232,12 @@ impl Parser<'_, '_> {
     /// `ATAN[y]/[x]`; on FANUC also `ATAN[y, x]`, or one argument.
     fn arc_tangent(&mut self) -> Option<NodeId> {
         let (y, second) = self.arguments(self.dialect.control == Control::Fanuc)?;
-        let x = if let Some(x) = second {
-            x
+        let x = if second.is_some() {
+            second
         } else if self.accept(b'/') {
-            self.bracket()?
+            Some(self.bracket()?)
         } else if self.dialect.macro_words {
-            self.node(Node::Number(1.0))
+            None
         } else {
             let message = "ATAN needs two arguments".to_owned();
             self.fault("missing-value", self.here(), message, "write ATAN[y]/[x]");

@@ -3,10 +3,9 @@
 use super::{Run, fault};
 use crate::execution::drilling::{Drill, MOST_PECKS, Stroke, check_pecks, pecks, reversed};
 use crate::execution::mistakes;
-use crate::moves::{Axis, Event, MoveKind, Position, SpindleDirection};
+use crate::moves::{Axis, Event, Feed, FeedMode, MoveKind, Position, SpindleDirection};
 use crate::rs274::code::{Cycle, Motion};
 use crate::text::program::Fault;
-use trueaxis_blocks::Control;
 use trueaxis_cycles::pattern::{Circle, MOST_HOLES, Row, peck_depths};
 
 /// What drilling cycles keep from block to block.
@@ -21,8 +20,12 @@ pub(super) struct CycleMemory {
     /// HAAS: the first peck and by how much each is less; the peck is then the least.
     shrink_mm: Option<[f64; 2]>,
     dwell_s: f64,
+    /// HAAS: how much faster a tap goes out than in.
+    faster: Option<f64>,
     /// Where the drill stood when the cycles began.
     initial_mm: Option<f64>,
+    /// The block itself writes the G code of its cycle.
+    pub written: bool,
 }
 
 impl CycleMemory {
@@ -70,6 +73,7 @@ impl Run<'_> {
         }
         self.core.modes.check_feed(at)?;
         self.shorter_pecks(cycle, at)?;
+        self.faster_out(cycle);
         let hole = self.hole(cycle, at)?;
         self.check_depth(hole.axis, at);
         let repeats = self.words.take(b'L').or_else(|| {
@@ -86,6 +90,12 @@ impl Run<'_> {
         let polar = self.modes.transforms.polar.is_some();
         let axes = self.core.modes.plane.axes();
         let steps = if polar { [None; 2] } else { [axes[0], axes[1]].map(|a| self.axis_word(a)) };
+        if repeats == 0.0 && !self.modes.cycle.written && self.is_haas() {
+            // Haas, "Mill Operator's Manual", G81: L0 in a later block moves X and Y without the cycle.
+            let over = self.over_hole(steps)?;
+            self.step(MoveKind::Rapid, over);
+            return Ok(());
+        }
         // FANUC looks at where the drill is, LinuxCNC at where the cycles began.
         let height = if self.is_fanuc() { self.frames.position.0[hole.axis] } else { hole.begin };
         if height < hole.r && cycle != Cycle::BackBore {
@@ -94,17 +104,7 @@ impl Run<'_> {
             self.step(MoveKind::Rapid, up);
         }
         for n in 0..repeats as u32 {
-            let mut over = self.frames.position;
-            for (axis, step) in axes.iter().zip(steps) {
-                let base = if self.core.modes.incremental { over[*axis] } else { 0.0 };
-                over[*axis] = step.map_or(over[*axis], |s| base + s);
-            }
-            if let Some(place) = self.polar_place() {
-                (over[axes[0]], over[axes[1]]) = (place[0], place[1]);
-            }
-            if let Some(place) = self.polar_target(false)? {
-                (over[Axis::X], over[Axis::Y]) = (place[0], place[1]);
-            }
+            let mut over = self.over_hole(steps)?;
             // LinuxCNC goes on at the height to which its last hole has returned, or as high as this one
             // will.
             if !self.is_fanuc() && (n > 0 || over.0[hole.axis] <= hole.r) {
@@ -124,6 +124,23 @@ impl Run<'_> {
         }
         self.words.polar = [None; 2];
         Ok(())
+    }
+
+    /// The place of the next hole, at the height at which the drill is.
+    fn over_hole(&mut self, steps: [Option<f64>; 2]) -> Result<Position, Fault> {
+        let [first, second, _] = self.core.modes.plane.axes();
+        let mut over = self.frames.position;
+        for (axis, step) in [first, second].into_iter().zip(steps) {
+            let base = if self.core.modes.incremental { over[axis] } else { 0.0 };
+            over[axis] = step.map_or(over[axis], |s| base + s);
+        }
+        if let Some(place) = self.polar_place() {
+            (over[first], over[second]) = (place[0], place[1]);
+        }
+        if let Some(place) = self.polar_target(false)? {
+            (over[Axis::X], over[Axis::Y]) = (place[0], place[1]);
+        }
+        Ok(over)
     }
 
     /// G70, G71 and G72 of HAAS: the drilling cycle that is on, at holes about or from the place of the tool.
@@ -183,7 +200,7 @@ impl Run<'_> {
     /// two cycles and is left out.
     fn shorter_pecks(&mut self, cycle: Cycle, at: usize) -> Result<(), Fault> {
         let pecks = matches!(cycle, Cycle::Peck | Cycle::ChipBreaking);
-        if !pecks || self.current().dialect().control != Control::Haas {
+        if !pecks || !self.is_haas() {
             return Ok(());
         }
         let unit = self.core.modes.unit_mm();
@@ -207,6 +224,14 @@ impl Run<'_> {
             }
         }
         Ok(())
+    }
+
+    /// J of G74 and G84 of HAAS ("Mill Operator's Manual"): J2 goes out twice as fast as in.
+    fn faster_out(&mut self, cycle: Cycle) {
+        let taps = matches!(cycle, Cycle::TapLeft | Cycle::TapRight) && self.is_haas();
+        if taps && self.words.look(b'J').is_some_and(|j| (0.1..=100.0).contains(&j)) {
+            self.modes.cycle.faster = self.words.take(b'J');
+        }
     }
 
     fn hole(&mut self, cycle: Cycle, at: usize) -> Result<Hole, Fault> {
@@ -286,7 +311,17 @@ impl Run<'_> {
                 strokes.extend([turn(SpindleDirection::Stopped), turn(reversed(into)), wait]);
                 // FANUC feeds out to R and goes on with rapid, LinuxCNC feeds all the way.
                 let out_of = if self.is_fanuc() { hole.r } else { hole.clear };
+                let speed =
+                    |times: f64| Stroke::Event(Event::SpindleSpeed(times * self.core.modes.speed));
+                let faster = self.modes.cycle.faster;
+                if let Some(times) = faster {
+                    let feed = self.core.modes.feed;
+                    let value = if feed.mode == FeedMode::PerMinute { times } else { 1.0 };
+                    strokes.push(Stroke::Feed(Feed { value: value * feed.value, ..feed }));
+                    strokes.push(speed(times));
+                }
                 strokes.extend([Stroke::Linear(out_of), turn(SpindleDirection::Stopped)]);
+                strokes.extend(faster.map(|_| speed(1.0)));
                 strokes.push(turn(turning));
                 strokes.extend((out_of != hole.clear).then_some(out));
             }

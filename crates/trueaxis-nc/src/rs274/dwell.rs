@@ -51,10 +51,14 @@ impl Run<'_> {
 
     /// Whether a word is a number with a decimal point.
     pub(super) fn has_point(&self, letter: u8) -> bool {
-        let place = self.words.place(letter);
+        self.written(self.words.place(letter)).1
+    }
+
+    /// Whether a word at a byte is a number, and whether it has a decimal point.
+    pub(super) fn written(&self, place: usize) -> (bool, bool) {
         let program = self.current();
         let number = program.source().get(place + 1..).unwrap_or_default().iter();
-        let mut number = number.take_while(|b| b.is_ascii_digit() || b"+- .".contains(b));
-        number.any(|b| *b == b'.')
+        let number = number.take_while(|b| b.is_ascii_digit() || b"+- .".contains(b));
+        (number.clone().any(u8::is_ascii_digit), number.clone().any(|b| *b == b'.'))
     }
 }

@@ -1,6 +1,7 @@
 //! Executes the words of a block in the order of RS274/NGC.
 
 use super::{Language, Next, Passage, Run, fault};
+use crate::dialect::Control;
 use crate::execution::corners::{Corner, is_size};
 use crate::execution::mistakes;
 use crate::moves::{Axis, AxisSet, Event, Move, MoveKind, PathControl, Position};
@@ -13,6 +14,12 @@ impl Run<'_> {
     pub(super) fn block(&mut self, passage: Passage<'_>) -> Result<Next, Fault> {
         if passage.block.skip.is_some() && !self.core.settings.skipped_blocks_too {
             return Ok(Next::Following);
+        }
+        let optional = passage.block.items.iter().position(|i| matches!(i, Item::Optional(_)));
+        if let Some(count) = optional.filter(|_| !self.core.settings.skipped_blocks_too) {
+            let mut block = passage.block.clone();
+            block.items.truncate(count);
+            return self.block(Passage { block: &block, ..passage });
         }
         if let Some(first) = passage.block.faults.first() {
             for later in &passage.block.faults[1..] {
@@ -115,6 +122,8 @@ impl Run<'_> {
         block: &Block,
     ) -> Result<Next, Fault> {
         self.modes.moved = false;
+        let cycles = |a: &Action| matches!(a, Action::Motion(Motion::Cycle(_)));
+        self.modes.cycle.written = actions.iter().any(|(a, _)| cycles(a));
         if self.modes.data_input {
             self.modes.data_input = !actions.iter().any(|(a, _)| *a == Action::DataInputEnd);
             let _ = self.words.take_all();
@@ -177,14 +186,18 @@ impl Run<'_> {
         Ok(Next::Following)
     }
 
-    /// P and L of a call or return, which follow the move of their block: no cycle may take them as its own.
-    fn words_of_call(&mut self, actions: &[(Action, usize)]) -> [Option<(u8, f64, usize)>; 2] {
+    /// P, L and Q of a call or return, which follow the move of their block: no cycle may take them as its own.
+    fn words_of_call(&mut self, actions: &[(Action, usize)]) -> [Option<(u8, f64, usize)>; 3] {
         let calls = |a: &Action| matches!(a, Action::Call | Action::LocalCall | Action::Return);
         if !actions.iter().any(|(a, _)| calls(a)) {
-            return [None; 2];
+            return [None; 3];
         }
-        let words = &mut self.words;
-        [b'P', b'L'].map(|l| words.take_away(l).map(|value| (l, value, words.place(l))))
+        let (words, begins) = (&mut self.words, self.core.programs[0].dialect().control);
+        b"PLQ".map(|l| {
+            let own = l != b'Q' || begins == Control::Fanuc;
+            let value = if own { words.take_away(l) } else { None };
+            value.map(|value| (l, value, words.place(l)))
+        })
     }
 
     fn call_or_return(&mut self, action: Action, block: &Block) -> Result<Next, Fault> {
@@ -369,6 +382,9 @@ impl Run<'_> {
                 if name.starts_with("M97") && self.words.look(b'P').is_some() {
                     self.core.left_out("M97 P, a call of HAAS (--control haas),", at);
                 }
+                if self.is_haas() && name.starts_with("M96") {
+                    self.core.left_out("M96 P Q, a jump where an input is 0,", at);
+                }
                 self.words.take_parameters();
                 self.core.emit(Event::Note(name));
             }
@@ -440,6 +456,7 @@ impl Run<'_> {
     }
 
     fn motion(&mut self, motion: Motion, machine: bool, at: usize) -> Result<(), Fault> {
+        let motion = if machine { self.machine_motion(motion, at)? } else { motion };
         if machine && self.core.has_radius() {
             return self.off_contour("G53", at, |run| run.motion_as_written(motion, machine, at));
         }
@@ -555,27 +572,6 @@ impl Run<'_> {
             return Err(mistakes::zero_direction(at));
         }
         Ok(Some(direction))
-    }
-
-    /// The program coordinates of a place given in machine coordinates.
-    fn machine_target(&mut self) -> Position {
-        self.modes.length_due = Position::default();
-        let mut machine = self.frames.machine();
-        let mut named = [false; 9];
-        for axis in Axis::ALL {
-            if let Some(value) = self.axis_word(axis) {
-                machine[axis] = value;
-                named[axis as usize] = true;
-            }
-        }
-        let target = self.frames.program_at(&machine);
-        let turned = self.frames.work().rotation_deg != 0.0 && (named[0] || named[1]);
-        let spatial = self.frames.program.is_some() || self.frames.work().linear.is_some();
-        let old = self.frames.position;
-        Position(std::array::from_fn(|i| {
-            let mixed = turned && i < 2 || spatial && i < 3;
-            if named[i] || mixed { target.0[i] } else { old.0[i] }
-        }))
     }
 }
 

@@ -454,8 +454,11 @@ impl Run<'_> {
 }
 
 fn unopened(statement: &Statement<'_>) -> Fault {
-    let message =
-        format!("{:?} of {} without its beginning", statement.keyword, show(&statement.label));
+    let keyword = match statement.passage.program.dialect().macro_words {
+        true => "END".to_owned(),
+        false => format!("{:?}", statement.keyword).to_lowercase(),
+    };
+    let message = format!("{keyword} of {} without its beginning", show(&statement.label));
     fault("unopened-control", statement.offset, message, "check the labels")
 }
 

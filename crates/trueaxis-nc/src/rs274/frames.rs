@@ -62,8 +62,10 @@ pub(super) struct Frames {
     pub active: usize,
     /// Added to every work offset: G10 L2 P0 of FANUC.
     pub external: Position,
-    /// The shift by G92 or G52, whether it is on or not.
+    /// The shift by G92, and by G52 of LinuxCNC, whether it is on or not.
     pub shift: Position,
+    /// G52 of FANUC and HAAS: on top of that of G92.
+    pub local: Position,
     pub shift_on: bool,
     /// Tilted plane, rotation, scale and mirror, as one.
     pub program: Option<Frame>,
@@ -92,6 +94,7 @@ impl Frames {
             active: 0,
             external: Position::default(),
             shift: Position::default(),
+            local: Position::default(),
             shift_on: false,
             program: None,
             tool: Position::default(),
@@ -106,7 +109,7 @@ impl Frames {
     }
 
     pub fn live_shift(&self) -> Position {
-        if self.shift_on { self.shift } else { Position::default() }
+        if self.shift_on { self.shift.plus(&self.local) } else { self.local }
     }
 
     /// The place of the program frame, without the tool.

@@ -70,7 +70,7 @@ fn offset_of(item: &Item) -> usize {
             *offset
         }
         Item::Comment(range) => range.start,
-        Item::Mark(at) | Item::LooseEnd(at) => *at,
+        Item::Mark(at) | Item::LooseEnd(at) | Item::Optional(at) => *at,
     }
 }
 

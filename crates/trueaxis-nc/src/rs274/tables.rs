@@ -4,7 +4,7 @@ use super::frames::{WorkOffset, offset_name};
 use super::radius::RADIUS_WEAR;
 use super::{Language, Run, fault};
 use crate::execution::mistakes;
-use crate::moves::{Axis, AxisSet, Coordinates, Event, Move, MoveKind, Position};
+use crate::moves::{Axis, AxisSet, Event, MoveKind, Position};
 use crate::rs274::code::Action;
 use crate::text::program::Fault;
 
@@ -30,6 +30,10 @@ impl Run<'_> {
             }
             Action::SetTable => self.set_table(at)?,
             Action::Shift => self.shift_here(),
+            Action::LocalShift if self.is_fanuc() => {
+                let local = self.by_words(self.frames.local, Axis::ALL, false);
+                self.change_local(local);
+            }
             Action::LocalShift => {
                 let shift = self.by_words(self.frames.shift, Axis::ALL, false);
                 self.change_shift(shift, true);
@@ -38,15 +42,13 @@ impl Run<'_> {
             Action::ShiftSuspend => self.change_shift(self.frames.shift, false),
             Action::ShiftResume => self.change_shift(self.frames.shift, true),
             Action::Preset => {
-                let mut shift = self.frames.shift;
-                for axis in Axis::ALL {
-                    if self.axis_word(axis).is_some() {
-                        shift[axis] = 0.0;
-                    }
-                }
+                let [shift, local] =
+                    [self.frames.shift, self.frames.local].map(|of| self.without_named(of));
+                self.frames.change(|f| f.local = local);
                 self.change_shift(shift, true);
             }
             Action::Reference(index) => self.off_contour("G28 or G30", at, |run| {
+                run.check_second_reference(index, at);
                 run.as_at_zero(|run| run.reference(usize::from(index) - 1));
                 Ok(())
             })?,
@@ -63,9 +65,21 @@ impl Run<'_> {
         Ok(())
     }
 
+    /// The same with 0 for the axes that the block names.
+    fn without_named(&mut self, mut of: Position) -> Position {
+        let named = |axis: &Axis| self.axis_word(*axis).is_some();
+        Axis::ALL.into_iter().filter(named).for_each(|axis| of[axis] = 0.0);
+        of
+    }
+
     /// G92: the present place gets the written coordinates.
+    ///
+    /// # Source
+    /// Haas Automation, "Mill Operator's Manual", G92: it cancels G52 for the axes of its block. NCT 99M user's manual,
+    /// 9.2.4, says the same of a control of FANUC's kind.
     fn shift_here(&mut self) {
         let target = self.by_words(self.frames.position, Axis::ALL, false);
+        let local = self.without_named(self.frames.local);
         self.frames.change(|f| {
             let mut moved = f.position.minus(&target);
             if let Some(program) = &f.program {
@@ -73,8 +87,8 @@ impl Run<'_> {
                 let [x, y, z, ..] = moved.0;
                 moved.0[..3].copy_from_slice(&program.vector([x, y, z]));
             }
-            f.shift = f.live_shift().plus(&moved);
-            f.shift_on = true;
+            f.shift = f.live_shift().minus(&local).plus(&moved);
+            (f.local, f.shift_on) = (local, true);
         });
         self.emit_shift();
     }
@@ -87,6 +101,11 @@ impl Run<'_> {
 
     fn change_shift(&mut self, shift: Position, on: bool) {
         self.frames.change(|f| (f.shift, f.shift_on) = (shift, on));
+        self.emit_shift();
+    }
+
+    pub(super) fn change_local(&mut self, local: Position) {
+        self.frames.change(|f| f.local = local);
         self.emit_shift();
     }
 
@@ -256,6 +275,20 @@ impl Run<'_> {
         Ok(())
     }
 
+    /// G30 of FANUC: the second reference point, the third or fourth by P, is in the parameters of the control.
+    fn check_second_reference(&mut self, index: u8, at: usize) {
+        if index == 1 || !self.is_fanuc() {
+            return;
+        }
+        if self.words.look(b'P').is_some_and(|p| [2.0, 3.0, 4.0].contains(&p)) {
+            self.words.take(b'P');
+        }
+        let message = "G30 moves to machine zero here".to_owned();
+        let hint =
+            "the reference points are in the parameters of the control, which are not known here";
+        self.core.warn("reference-point", "", at, message, hint);
+    }
+
     /// G28, G30: by way of the axis words to a reference point; only the named axes go there.
     fn reference(&mut self, index: usize) {
         self.modes.length_due = Position::default();
@@ -275,17 +308,6 @@ impl Run<'_> {
         }
         let target = self.frames.program_at(&machine);
         self.step_of(MoveKind::Rapid, target, named);
-    }
-
-    /// A rapid of the named axes in machine coordinates, whatever the frames are. Where that is in
-    /// the program frame only the machine knows; here it is as if all rotary axes stood at zero.
-    pub(super) fn machine_move(&mut self, machine: Position, named: AxisSet) {
-        self.modes.length_due = Position::default();
-        let (feed, origin) = (self.core.modes.feed, self.core.origin);
-        let coordinates = Coordinates::Machine;
-        let rapid = Move::plain(MoveKind::Rapid, machine, named, feed, origin);
-        self.emit_move(Move { coordinates, ..rapid });
-        self.frames.position = self.frames.program_at(&machine);
     }
 
     /// Where the axes are in the machine.
@@ -352,7 +374,7 @@ impl Run<'_> {
                 Ok(())
             }
             None | Some(1 | 10..=13) if fanuc => {
-                self.set_length(number, level.unwrap_or(1.0) as u32);
+                self.set_length(number, level.unwrap_or(10.0) as u32);
                 Ok(())
             }
             Some(2 | 20) => self.set_offset(number, level == Some(20.0), at),
@@ -416,11 +438,20 @@ impl Run<'_> {
     /// FANUC G10 L2 P0: what is added to all work offsets.
     fn set_external(&mut self) {
         let incremental = self.core.modes.incremental;
-        let external = self.by_words(self.frames.external, Axis::ALL, incremental);
+        let external = self.by_words(self.external(), Axis::ALL, incremental);
         self.change_external(external);
     }
 
+    /// What is added to all work offsets: a register of its own, on HAAS that of G52 ("Mill Operator's Manual", G10 P0
+    /// and `#5201`).
+    pub(super) fn external(&self) -> Position {
+        if self.is_haas() { self.frames.local } else { self.frames.external }
+    }
+
     pub(super) fn change_external(&mut self, external: Position) {
+        if self.is_haas() {
+            return self.change_local(external);
+        }
         self.frames.change(|f| f.external = external);
         self.emit_frame();
     }
@@ -437,8 +468,16 @@ impl Run<'_> {
     }
 
     /// FANUC G10 L10, L11 (wear), L12 and L13 (radius and its wear) P… R…; L1 is L10.
+    ///
+    /// # Source
+    /// Haas Automation, "Mill Operator's Manual", G10: L12 and L13 are diameters (Setting 40), L1 is L11.
     fn set_length(&mut self, number: u32, level: u32) {
         let Some(value) = self.length(b'R') else { return };
+        let (level, value) = match (self.is_haas(), level) {
+            (true, 1) => (11, value),
+            (true, 12 | 13) => (level, value / 2.0),
+            _ => (level, value),
+        };
         let length = self.frames.tools.get(&number).copied().unwrap_or_default();
         let old = match level {
             11 => self.frames.wear.get(&number).copied().unwrap_or_default(),

@@ -5,6 +5,7 @@ use super::{Passage, Run};
 use crate::execution::mistakes;
 use crate::execution::values::{self, finite};
 use crate::text::program::{Fault, Function, Node, NodeId, Operator, Program};
+use trueaxis_blocks::Control;
 
 impl Run<'_> {
     /// The value of an expression. A FANUC parameter without a value is NaN in here; it counts as
@@ -18,7 +19,12 @@ impl Run<'_> {
             Node::Function(function, x, at) => {
                 self.function(passage.program, *function, vacant(of(*x)?), *at)
             }
-            Node::ArcTangent(y, x) => Ok(vacant(of(*y)?).atan2(vacant(of(*x)?)).to_degrees()),
+            Node::ArcTangent(y, x) => {
+                let (y, other) = (vacant(of(*y)?), x.map(of).transpose()?.map_or(1.0, vacant));
+                let angle_deg = y.atan2(other).to_degrees();
+                let program = passage.program;
+                Ok(if x.is_some() { from_zero(program, angle_deg) } else { angle_deg })
+            }
             Node::Exists(parameter) => {
                 let found = match self.parameter(passage, *parameter)? {
                     Parameter::Number(n) => n > 0 && self.is_in_range(n),
@@ -67,7 +73,7 @@ impl Run<'_> {
             Function::Bcd => coded(10, 16).ok_or_else(|| values::out_of_domain("BCD", x, at))?,
             Function::Bin => coded(16, 10).ok_or_else(|| values::out_of_domain("BIN", x, at))?,
             Function::Acos => return of("ACOS"),
-            Function::Asin => return of("ASIN"),
+            Function::Asin => return of("ASIN").map(|deg| from_zero(program, deg)),
             Function::Cos => return of("COS"),
             Function::Exp => return of("EXP"),
             Function::Fix if towards_zero => x.trunc(),
@@ -82,6 +88,15 @@ impl Run<'_> {
         };
         finite(result, at)
     }
+}
+
+/// FANUC gives the angles of ATAN[y]/[x] from 0 to 360 and those of ASIN from 270 to 90.
+///
+/// # Source
+/// FANUC Series 30i operator's manual, "Custom macro", arithmetic and logic operations: parameter 6004, bit 0 (NAT) = 0.
+fn from_zero(program: &Program, angle_deg: f64) -> f64 {
+    let whole = program.dialect().control == Control::Fanuc && angle_deg < 0.0;
+    if whole { angle_deg + 360.0 } else { angle_deg }
 }
 
 /// The digits of a whole number in one base, read in another: BCD and BIN.

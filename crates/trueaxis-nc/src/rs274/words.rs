@@ -228,7 +228,9 @@ impl Run<'_> {
                 b'^' => polar::put(&mut words.polar[1], '^', value, *offset)?,
                 // Which spindle turns does not move the tool.
                 b'$' => {}
-                _ if gathering.is_argument(*letter) => words.arguments.push((*letter, value)),
+                _ if gathering.is_argument(*letter) => {
+                    words.arguments.push((*letter, value * self.argument_unit(*letter, *offset)));
+                }
                 b'c' | b'r' => words.corner = Some((*letter == b'r', value, *offset)),
                 b'N' => self.modes.last[1] = value,
                 b'G' if self.core.own_number('G', value, *offset) => {
@@ -258,7 +260,42 @@ impl Run<'_> {
         if words.actions.iter().any(|(a, _)| matches!(a, Action::Motion(_)) && *a != cancelled) {
             words.actions.retain(|(a, _)| *a != cancelled);
         }
+        if self.is_fanuc() && !self.is_haas() {
+            self.keep_last_codes(&mut words.actions);
+        }
         check_groups(words)
+    }
+
+    /// Of two codes of one modal group the last holds on FANUC.
+    ///
+    /// # Source
+    /// FANUC Series 16i operator's manual, "Preparatory function": of several G codes of one group in a block only the last
+    /// is valid. Haas Automation, "Mill Operator's Manual": they are not allowed.
+    fn keep_last_codes(&mut self, actions: &mut Vec<(Action, usize)>) {
+        use Action as A;
+        use Motion::{ArcClockwise, ArcCounterClockwise, Linear, Rapid, Thread};
+        let moves = |m| matches!(m, Rapid | Linear | ArcClockwise | ArcCounterClockwise | Thread);
+        let group = |a: A| match a {
+            A::Motion(motion) if !moves(motion) => None,
+            A::Motion(_) | A::Plane(_) | A::Incremental(_) | A::Inches(_) | A::Feed(_) => {
+                Some(a.rank())
+            }
+            A::Compensation(_) | A::WorkOffset(_) | A::RetractToR(_) => Some(a.rank()),
+            _ => None,
+        };
+        let mut index = 0;
+        while let Some(&(action, at)) = actions.get(index) {
+            let replaces = |a: A| a != action && group(a) == group(action);
+            let known = group(action).is_some();
+            if known && actions[index + 1..].iter().any(|(a, _)| replaces(*a)) {
+                let message = "two codes of one group are in this block: the last one holds";
+                let (line, hint) = (self.core.origin.line, "write the last one alone");
+                self.core.warn("conflicting-codes", line, at, message, hint);
+                actions.remove(index);
+            } else {
+                index += 1;
+            }
+        }
     }
 
     fn g_code(&mut self, program: &Program, value: f64, offset: usize) -> Result<Action, Fault> {

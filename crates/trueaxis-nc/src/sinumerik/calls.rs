@@ -406,7 +406,8 @@ impl Run<'_> {
         arguments: &[Argument],
         at: usize,
     ) -> Result<(), Fault> {
-        reader.advance();
+        // The name of the program: of one token, or L and its number.
+        reader.at += reader.name().map_or(1, |(_, length)| length);
         let mut index = 0;
         if reader.accept(b'(') {
             while !reader.accept(b')') {

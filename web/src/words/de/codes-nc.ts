@@ -95,6 +95,7 @@ export const codes: Dictionary = {
   "dynamic-offset-turns": "Rundachse dreht bei aktivem G254",
   "not-at-reference": "Referenzpunkt nicht erreicht",
   "reference-point": "Maschinennullpunkt statt Referenzpunkt angefahren",
+  "incremental-machine-place": "G53 bei G91",
   "bad-machine-move": "Maschinenkoordinaten nur mit G0 oder G1",
   "machine-move-with-traori": "Maschinenkoordinaten bei aktivem TRAORI",
   "direction-without-traori": "Werkzeugrichtung ohne TRAORI",

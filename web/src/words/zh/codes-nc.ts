@@ -95,6 +95,7 @@ export const codes: Dictionary = {
   "dynamic-offset-turns": "G254 有效时回转轴转动",
   "not-at-reference": "位置不在参考点",
   "reference-point": "以机床零点代替参考点",
+  "incremental-machine-place": "G91 有效时使用 G53",
   "bad-machine-move": "机床坐标仅允许 G0 或 G1",
   "machine-move-with-traori": "TRAORI 有效时使用机床坐标",
   "direction-without-traori": "未激活 TRAORI 却编程刀轴方向",

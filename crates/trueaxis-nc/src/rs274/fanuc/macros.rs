@@ -98,6 +98,20 @@ impl Run<'_> {
         }
     }
 
+    /// What a number without a decimal point counts as an argument of a macro.
+    ///
+    /// # Source
+    /// Haas Automation, "Mill Operator's Manual", "Integer Argument Passing (no decimal point)": 0.0001 (metric 0.001),
+    /// 1 for the other letters.
+    pub(in crate::rs274) fn argument_unit(&self, letter: u8, place: usize) -> f64 {
+        let scaled = self.is_haas() && b"ABCIJKQRUVWXYZ".contains(&letter);
+        match self.core.modes.inches {
+            _ if !scaled || self.written(place) != (true, false) => 1.0,
+            true => 0.0001,
+            false => 0.001,
+        }
+    }
+
     /// The modal macro of this depth of calls.
     fn modal_here(&self, each_block: bool) -> Option<&ModalMacro> {
         let modal = self.modes.macros.last()?;
@@ -149,8 +163,28 @@ impl Run<'_> {
         let next = self.call_label(&label, locals, block, repeats, at)?;
         if next == Next::Jumped {
             self.frame().shares_locals = true;
+            self.begin_at_number(at)?;
         }
         Ok(next)
+    }
+
+    /// Q of M98 on FANUC: the subprogram begins at this block number, each time.
+    ///
+    /// # Source
+    /// FANUC Series 30i operator's manual, M98 P Q; "Subprogram Call: M98, M99" (okumacnc.blogspot.com).
+    fn begin_at_number(&mut self, at: usize) -> Result<(), Fault> {
+        let fanuc = self.is_fanuc() && !self.is_haas();
+        let Some(number) = self.words.look(b'Q').filter(|_| fanuc) else { return Ok(()) };
+        self.words.take(b'Q');
+        let (program, from) = (self.frame().program, self.frame().at);
+        let called = Rc::clone(&self.core.programs[program]);
+        let found = called.structure().block_number(number as u64, from.saturating_sub(1));
+        let Some((start, line)) = found.filter(|_| number >= 0.0 && number.fract() == 0.0) else {
+            return Err(mistakes::missing_label(format_args!("N{number}"), at));
+        };
+        let frame = self.frame();
+        (frame.at, frame.line, frame.entry, frame.named) = (start, line, (start, line), start > 0);
+        Ok(())
     }
 
     /// M97 P…: from the block number P of this program to M99, L times.

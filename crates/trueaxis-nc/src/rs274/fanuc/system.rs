@@ -20,7 +20,11 @@ enum Table {
 }
 
 /// What a variable stands for: a table and its axis.
-fn table(number: u32) -> Option<(Table, usize)> {
+///
+/// # Source
+/// Haas Automation, "Mill Operator's Manual", "Macro Variables Table": #2001 length, #2201 its wear; #10001 and above are
+/// general-purpose variables and signals.
+fn table(number: u32, haas: bool) -> Option<(Table, usize)> {
     let of = |first: u32, index: u32| {
         let (entry, axis) = ((number - first) / 20, (number - first) % 20);
         (axis < 9).then_some((Table::Offset((index + entry) as usize), axis as usize))
@@ -30,6 +34,9 @@ fn table(number: u32) -> Option<(Table, usize)> {
         5221..=5329 => of(5221, 0),
         7001..=7949 => of(7001, 9),
         14_001..=19_989 => of(14_001, 9),
+        10_001..=13_999 if haas => None,
+        2001..=2200 if haas => Some((Table::Length(number - 2000), 2)),
+        2201..=2400 if haas => Some((Table::Wear(number - 2200), 2)),
         2001..=2200 => Some((Table::Wear(number - 2000), 2)),
         10_001..=10_999 => Some((Table::Wear(number - 10_000), 2)),
         2201..=2400 => Some((Table::Length(number - 2200), 2)),
@@ -48,11 +55,11 @@ impl Run<'_> {
     pub(in crate::rs274) fn fanuc_variable(&self, number: u32) -> Option<f64> {
         let frames = &self.frames;
         let of = |position: &Position, first: u32| self.shown(position, (number - first) as usize);
-        if let Some((table, axis)) = table(number) {
+        if let Some((table, axis)) = table(number, self.is_haas()) {
             let length = |entry: u32| frames.tools.get(&entry).copied().unwrap_or_default();
             let wear = |entry: u32| frames.wear.get(&entry).copied().unwrap_or_default();
             return match table {
-                Table::External => self.shown(&frames.external, axis),
+                Table::External => self.shown(&self.external(), axis),
                 Table::Offset(index) => {
                     let work = frames.offsets.get(index).copied().unwrap_or_default();
                     self.shown(&work.offset, axis)
@@ -163,12 +170,12 @@ impl Run<'_> {
         offset: usize,
     ) -> Result<bool, Fault> {
         let value = if value.is_nan() { 0.0 } else { value };
-        if let Some((table, axis)) = table(number) {
+        if let Some((table, axis)) = table(number, self.is_haas()) {
             let rotary = Axis::ALL[axis].is_rotary();
             let value = if rotary { value } else { value * self.core.modes.unit_mm() };
             match table {
                 Table::External => {
-                    let mut external = self.frames.external;
+                    let mut external = self.external();
                     external.0[axis] = value;
                     self.change_external(external);
                 }
