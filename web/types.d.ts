@@ -771,6 +771,10 @@ export type ServeSocket =
       reply: {
         [k: string]: unknown;
       };
+      /**
+       * The files below the project folder that were read or looked for: where one of them changes, so may the answer.
+       */
+      files_read: string[];
     }
   | {
       /**
@@ -781,6 +785,10 @@ export type ServeSocket =
        * Why.
        */
       error: RefusalEntry;
+      /**
+       * The files below the project folder that were read or looked for.
+       */
+      files_read: string[];
     }
   | {
       /**

@@ -111,6 +111,21 @@ export class Refusal extends Error {
 
 type RefusalDocument = Partial<ServeRefused["error"]>;
 
+/** What is made of an answer has its files. */
+export const sameFiles = <T>(made: T, answer: object): T => madeFrom(made, filesOf(answer));
+
+const made_from = new WeakMap<object, readonly string[]>();
+
+/** The files of the project that an answer or a refusal was made from; those that were looked for in vain, too. */
+export const filesOf = (answer: unknown): readonly string[] =>
+  (typeof answer === "object" && answer !== null && made_from.get(answer)) || [];
+
+/** Notes them; what is no object has none. */
+function madeFrom<T>(answer: T, files: readonly string[] | undefined): T {
+  if (files && typeof answer === "object" && answer !== null) made_from.set(answer, files);
+  return answer;
+}
+
 function refusal(doc: RefusalDocument | undefined): Refusal {
   return new Refusal(
     doc?.code ?? "unknown",
@@ -137,11 +152,30 @@ interface Pending {
   onProgress?: ((share: number, note: string) => void) | undefined;
 }
 
-export type ConnectionState = "connecting" | "open" | "lost";
+/** "strange": a server answers, and knows another token than this page. */
+export type ConnectionState = "connecting" | "open" | "lost" | "strange";
 
 /** Some characters that no other window has (`crypto.randomUUID` is not there beyond loopback). */
 const windowName = (): string =>
   [...crypto.getRandomValues(new Uint8Array(8))].map((byte) => byte.toString(16).padStart(2, "0")).join("");
+
+/** So long a server may be busy with what was given up. */
+const BUSY_MS = 60_000;
+
+function pause(ms: number, signal: AbortSignal | undefined): Promise<void> {
+  return new Promise((resolve, reject) => {
+    const aborted = (): void => {
+      clearTimeout(timer);
+      reject(new DOMException("aborted", "AbortError"));
+    };
+    const timer = setTimeout(() => {
+      signal?.removeEventListener("abort", aborted);
+      resolve();
+    }, ms);
+    if (signal?.aborted) aborted();
+    else signal?.addEventListener("abort", aborted, { once: true });
+  });
+}
 
 export class Api {
   onState: (state: ConnectionState) => void = () => {};
@@ -153,11 +187,24 @@ export class Api {
   private retry_ms = 250;
   private retry: ReturnType<typeof setTimeout> | undefined;
   private was_lost = false;
+  private is_strange = false;
   /** Goes with every save, so that this window knows its own. */
   readonly window = windowName();
 
-  /** Asks `name`; resolves with the reply, or with a `Frame` where the reply is binary. */
+  /** Asks `name`; resolves with the reply, or with a `Frame` where the reply is binary. A server that is busy is asked again. */
   async ask<N extends Question>(name: N, body: Request<N>, options: AskOptions = {}): Promise<Reply<N>> {
+    const until = Date.now() + BUSY_MS;
+    for (let wait_ms = 200; ; wait_ms = Math.min(2000, 2 * wait_ms)) {
+      try {
+        return await this.askOnce(name, body, options);
+      } catch (error) {
+        if (!(error instanceof Refusal) || error.code !== "busy" || Date.now() + wait_ms > until) throw error;
+      }
+      await pause(wait_ms, options.signal);
+    }
+  }
+
+  private async askOnce<N extends Question>(name: N, body: Request<N>, options: AskOptions = {}): Promise<Reply<N>> {
     options.signal?.throwIfAborted();
     const socket = await this.connect();
     const id = this.next_id++;
@@ -193,7 +240,7 @@ export class Api {
   }
 
   private open(): Promise<WebSocket> {
-    this.onState("connecting");
+    if (!this.is_strange) this.onState("connecting");
     const url = new URL("api/socket", location.href);
     url.protocol = location.protocol === "https:" ? "wss:" : "ws:";
     url.search = url.hash = "";
@@ -203,6 +250,7 @@ export class Api {
       socket.onopen = () => {
         this.socket = socket;
         this.retry_ms = 250;
+        this.is_strange = false;
         this.onState("open");
         resolve(socket);
         // What others saved while the connection was lost was not reported.
@@ -211,15 +259,29 @@ export class Api {
       };
       socket.onmessage = (event) => this.receive(event.data as string | ArrayBuffer);
       socket.onclose = () => {
-        const lost = new Refusal(
-          "connection",
-          tr`no connection to TrueAxis`,
-          tr`Is \`trueaxis serve\` still running? The page reconnects by itself.`,
-        );
+        const lost = new Refusal("connection", tr`no connection to TrueAxis`, this.lostHint());
         reject(lost);
         if (this.socket === socket || this.socket === null) this.lose(lost);
       };
     });
+  }
+
+  /** What to do where there is no connection. */
+  lostHint(): string {
+    return this.is_strange
+      ? tr`\`trueaxis serve\` was started again: open the new link that it printed.`
+      : tr`Is \`trueaxis serve\` still running? The page reconnects by itself.`;
+  }
+
+  /** A browser does not say why there is no socket; the page itself does. */
+  private async askWhy(): Promise<void> {
+    const status = await fetch("./", { method: "HEAD", cache: "no-store" }).then(
+      (response) => response.status,
+      () => null,
+    );
+    if (this.socket) return;
+    this.is_strange = status === 401;
+    this.onState(this.is_strange ? "strange" : "lost");
   }
 
   private lose(lost: Refusal): void {
@@ -227,7 +289,8 @@ export class Api {
     this.was_lost = true;
     for (const waiting of this.pending.values()) waiting.reject(lost);
     this.pending.clear();
-    this.onState("lost");
+    if (!this.is_strange) this.onState("lost");
+    void this.askWhy();
     clearTimeout(this.retry);
     this.retry = setTimeout(() => void this.connect().catch(() => undefined), this.retry_ms);
     this.retry_ms = Math.min(8000, this.retry_ms * 2);
@@ -235,7 +298,8 @@ export class Api {
 
   private receive(data: string | ArrayBuffer): void {
     if (typeof data !== "string") {
-      const frame = decodeFrame(data);
+      const frame = decodeFrame<{ files_read?: string[] }>(data);
+      madeFrom(frame, frame.header.files_read);
       this.settle(frame.header.id, (waiting) => waiting.resolve(frame));
       return;
     }
@@ -245,13 +309,16 @@ export class Api {
       note?: string;
       reply?: unknown;
       error?: RefusalDocument;
+      files_read?: string[];
       changed?: Change;
     };
+    const { files_read } = message;
     if (message.changed) this.onChange(message.changed);
     else if (message.progress !== undefined)
       this.pending.get(message.id ?? -1)?.onProgress?.(message.progress, message.note ?? "");
-    else if (message.error) this.settle(message.id, (waiting) => waiting.reject(refusal(message.error)));
-    else this.settle(message.id, (waiting) => waiting.resolve(message.reply));
+    else if (message.error)
+      this.settle(message.id, (waiting) => waiting.reject(madeFrom(refusal(message.error), files_read)));
+    else this.settle(message.id, (waiting) => waiting.resolve(madeFrom(message.reply, files_read)));
   }
 
   private settle(id: number | undefined, how: (waiting: Pending) => void): void {

@@ -1,7 +1,7 @@
 /** The frame of the page: tabs, the open project and machine, status line, messages. */
 
 import { Address, hashOf, readHash, type Change as Kept } from "./address.ts";
-import { Api, Refusal, type Change, type Diagnostic, type Project } from "./api.ts";
+import { Api, Refusal, type Change, type ConnectionState, type Diagnostic, type Project } from "./api.ts";
 import { fill, h } from "./dom.ts";
 import { withErrorNames } from "./glossary/glossary.ts";
 import { keysButton } from "./keys.ts";
@@ -36,7 +36,7 @@ export interface State {
   /** Path of the open machine file, shared by the tabs. */
   machine: string | null;
   tab: string;
-  connection: "connecting" | "open" | "lost";
+  connection: ConnectionState;
 }
 
 export interface Progress {
@@ -47,6 +47,8 @@ export interface Progress {
 interface Mounted {
   host: HTMLElement;
   handle: TabHandle | null;
+  /** The module could not be fetched; when the tab is opened again, it is tried again. */
+  failed: boolean;
   /** Its module is loaded. */
   ready: Promise<void>;
 }
@@ -169,10 +171,11 @@ export class App {
 
   private async mountTab(entry: TabEntry): Promise<Mounted> {
     const there = this.mounted.get(entry.name);
-    if (there) {
+    if (there && !there.failed) {
       await there.ready;
       return there;
     }
+    there?.host.remove();
     const host = h("section", {
       class: `tab tab-${entry.name}`,
       id: `tab-${entry.name}`,
@@ -180,16 +183,36 @@ export class App {
       "aria-labelledby": `tab-link-${entry.name}`,
     });
     const load = async (): Promise<void> => {
-      fresh.handle = (await entry.load()).mount(host, this);
+      const tab = await entry.load().catch((error: unknown) => {
+        console.info(error);
+        fresh.failed = true;
+        this.sayNotLoaded(host, entry.title);
+      });
+      if (!tab) return;
+      fresh.handle = tab.mount(host, this);
       host.prepend(h("h1", { class: "visually-hidden" }, entry.title));
     };
-    const fresh: Mounted = { host, handle: null, ready: Promise.resolve() };
+    const fresh: Mounted = { host, handle: null, failed: false, ready: Promise.resolve() };
     this.mounted.set(entry.name, fresh);
     this.main.append(host);
     this.tabs.querySelector(`[data-tab="${entry.name}"]`)?.setAttribute("aria-controls", host.id);
     fresh.ready = load();
     await fresh.ready;
     return fresh;
+  }
+
+  /** Where a tab would stand: its module comes from the server, too. */
+  private sayNotLoaded(host: HTMLElement, title: string): void {
+    fill(
+      host,
+      h(
+        "section",
+        { class: "panel refused", role: "alert" },
+        h("h2", {}, tr`${title} could not be loaded`),
+        h("p", { class: "hint" }, this.api.lostHint()),
+        h("button", { onclick: () => location.reload() }, tr`Load the page again`),
+      ),
+    );
   }
 
   // ---- status and messages ----
@@ -338,6 +361,7 @@ export class App {
       connecting: tr`connecting …`,
       open: `TrueAxis${version}`,
       lost: tr`no connection – trying again`,
+      strange: this.api.lostHint(),
     }[state.connection];
   }
 }

@@ -43,7 +43,8 @@ async function live(server) {
 export async function serve(folder = root, options = ["--no-token"]) {
   if (process.env.ADDRESS && folder === root) return { address: process.env.ADDRESS, stop: () => {} };
   if (!existsSync(program)) throw new Error(`${program} is not there: cargo build --release`);
-  const child = spawn(program, ["serve", folder, "--port", "0", ...options], { stdio: ["ignore", "pipe", "inherit"] });
+  const port = options.includes("--port") ? [] : ["--port", "0"];
+  const child = spawn(program, ["serve", folder, ...port, ...options], { stdio: ["ignore", "pipe", "inherit"] });
   const address = await new Promise((found, failed) => {
     let text = "";
     child.stdout.on("data", (piece) => {
@@ -98,11 +99,12 @@ export async function browse() {
  * A window that remembers every complaint: console errors and warnings, requests that leave the origin.
  * `complaints` must be empty at the end of a test.
  */
-export async function open(browser, address, { dark = false, width = 1400, height = 900 } = {}) {
+export async function open(browser, address, { dark = false, width = 1400, height = 900, locale = "en-US" } = {}) {
   const context = await browser.newContext({
     viewport: { width, height },
     colorScheme: dark ? "dark" : "light",
     acceptDownloads: true,
+    locale,
   });
   const page = await context.newPage();
   const complaints = [];

@@ -316,5 +316,54 @@ for (const [text, said] of [
 }
 assert.equal(entriesOf(file).length, 9);
 
+// A server that is busy is asked again, until the question is given up; an answer has the files that it was made from.
+const { Api, filesOf } = await vite.ssrLoadModule("/src/api.ts");
+const { Reads } = await vite.ssrLoadModule("/src/reads.ts");
+const answers = [];
+const questions = [];
+class FakeSocket {
+  static OPEN = 1;
+  readyState = 1;
+  constructor() {
+    setTimeout(() => this.onopen());
+  }
+  send(words) {
+    const { id, stop } = JSON.parse(words);
+    if (stop) return;
+    questions.push(id);
+    setTimeout(() => this.onmessage({ data: JSON.stringify({ id, ...answers.shift() }) }));
+  }
+}
+Object.assign(globalThis, { WebSocket: FakeSocket, location: { href: "http://127.0.0.1:1/", protocol: "http:" } });
+const busy = { error: { code: "busy", message: "too much", hint: "", diagnostics: [] } };
+const api = new Api();
+answers.push(busy, busy, { reply: { text: "x" }, files_read: ["a.toml", "b.csv"] });
+const reply = await api.ask("open", { path: "a.toml" });
+assert.deepEqual([reply.text, questions.length, filesOf(reply)], ["x", 3, ["a.toml", "b.csv"]]);
+answers.push({ ...busy, error: { ...busy.error, code: "conflict" } });
+await assert.rejects(api.ask("open", { path: "a.toml" }), { code: "conflict" });
+answers.push(busy);
+const stopping = new AbortController();
+const stopped = api.ask("open", { path: "a.toml" }, { signal: stopping.signal });
+setTimeout(() => stopping.abort(), 60);
+await assert.rejects(stopped, { name: "AbortError" });
+assert.equal(questions.length, 5);
+
+let asked_again = 0;
+const reads = new Reads(() => (asked_again += 1));
+const reading = reads.of(Promise.resolve(reply));
+// Before the answer it is not known whether it has read the file; at its end it is.
+assert.deepEqual([reads.isChangedBy("b.csv"), reads.isChangedBy("c.csv")], [false, false]);
+await reading;
+await new Promise((done) => setTimeout(done, 5));
+assert.equal(asked_again, 1);
+assert.deepEqual(
+  ["a.toml", "c.csv", null].map((path) => reads.isChangedBy(path)),
+  [true, false, true],
+);
+// A lost connection says nothing of files.
+await assert.rejects(reads.of(Promise.reject(new Error("lost"))));
+assert.equal(reads.isChangedBy("b.csv"), true);
+
 await vite.close();
 console.log("unit checks passed");

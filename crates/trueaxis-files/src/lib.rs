@@ -8,7 +8,7 @@ pub mod output;
 mod scope;
 mod written;
 
-pub use scope::within;
+pub use scope::{noted_within, within};
 
 use scope::{readable, writable};
 use std::fs;

@@ -2,12 +2,15 @@
 
 use std::borrow::Cow;
 use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::path::{Component, Path, PathBuf};
 use std::{fs, io};
 
 thread_local! {
     /// The folders of the scopes that this thread is in, without links; `None` for one that is not there.
     static ROOTS: RefCell<Vec<Option<PathBuf>>> = const { RefCell::new(Vec::new()) };
+    /// What was looked for in the scopes of this thread, where that is noted.
+    static NOTED: RefCell<Option<BTreeSet<PathBuf>>> = const { RefCell::new(None) };
 }
 
 /// While `work` runs, every file that this crate reads, writes or looks for on this thread must lie below
@@ -46,6 +49,54 @@ pub fn within<T>(root: &Path, work: impl FnOnce() -> T) -> T {
     work()
 }
 
+/// The same, and the files below `root` that were read or looked for, by their way from there: those that are missing, too, as
+/// an answer changes where one of them comes.
+///
+/// ```
+/// use trueaxis_files as files;
+/// let folder = std::env::temp_dir();
+/// let (_, asked) = files::noted_within(&folder, || files::is_file(&folder.join("part.setup.toml")));
+/// assert_eq!(asked, ["part.setup.toml"]);
+/// ```
+pub fn noted_within<T>(root: &Path, work: impl FnOnce() -> T) -> (T, Vec<String>) {
+    /// What was noted before is noted again, after a panic too.
+    struct Before(Option<BTreeSet<PathBuf>>);
+    impl Drop for Before {
+        fn drop(&mut self) {
+            NOTED.set(self.0.take());
+        }
+    }
+    let _before = Before(NOTED.replace(Some(BTreeSet::new())));
+    let done = within(root, work);
+    let noted = NOTED.take().unwrap_or_default();
+    let real = root.canonicalize().unwrap_or_default();
+    let named = |path: &PathBuf| {
+        let below = path.strip_prefix(&real).ok()?;
+        Some(below.to_string_lossy().replace('\\', "/"))
+    };
+    let mut names: Vec<String> = noted.iter().filter_map(named).collect();
+    names.retain(|name| !name.is_empty());
+    (done, names)
+}
+
+/// Notes a file by the path that it is called by, without `.` and `..`, and without links if it is there.
+fn note(path: &Path) {
+    NOTED.with_borrow_mut(|noted| {
+        let Some(noted) = noted else { return };
+        let here = Path::new(".").canonicalize().unwrap_or_default();
+        let mut plain = PathBuf::new();
+        for part in here.join(path).components() {
+            match part {
+                Component::ParentDir => drop(plain.pop()),
+                Component::CurDir => {}
+                part => plain.push(part),
+            }
+        }
+        noted.extend(path.canonicalize().ok());
+        noted.insert(plain);
+    });
+}
+
 /// The path under which a file may be read: as it is, or without links in a scope.
 ///
 /// # Errors
@@ -54,6 +105,7 @@ pub(crate) fn readable(path: &Path) -> io::Result<Cow<'_, Path>> {
     if is_free() {
         return Ok(Cow::Borrowed(path));
     }
+    note(path);
     let real = path.canonicalize().map_err(|error| unless_outside(path, error))?;
     inside(&real)?;
     match fs::metadata(&real)?.is_file() {

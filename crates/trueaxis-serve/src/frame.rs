@@ -60,6 +60,8 @@ struct Header<'a> {
     answer: &'a Value,
     #[serde(skip_serializing_if = "Option::is_none")]
     id: Option<u64>,
+    #[serde(skip_serializing_if = "<[String]>::is_empty")]
+    files_read: &'a [String],
     arrays: Vec<ArrayEntry>,
 }
 
@@ -82,13 +84,14 @@ impl Frame {
         Self { header: document(header), arrays }
     }
 
-    /// The piece as it goes over the wire; `id` is that of the request.
-    pub(crate) fn bytes(&self, id: Option<u64>) -> Vec<u8> {
+    /// The piece as it goes over the wire; `id` is that of the request, `files_read` are those that it was made from.
+    pub(crate) fn bytes(&self, id: Option<u64>, files_read: &[String]) -> Vec<u8> {
         let arrays = self.arrays.iter().map(|(name, array)| {
             let (kind, count) = array.kind();
             ArrayEntry { name, kind, count }
         });
-        let header = Header { answer: &self.header, id, arrays: arrays.collect() };
+        let arrays = arrays.collect();
+        let header = Header { answer: &self.header, id, files_read, arrays };
         let header = document(&header).to_string();
         let mut bytes = (header.len() as u32).to_le_bytes().to_vec();
         bytes.extend(header.as_bytes());
@@ -107,7 +110,7 @@ mod tests {
     fn arrays_begin_at_multiples_of_eight() {
         let arrays = vec![("a", Array::U8(vec![7])), ("b", Array::F64(vec![1.5]))];
         let frame = Frame::new(&json!({}), arrays);
-        let bytes = frame.bytes(Some(3));
+        let bytes = frame.bytes(Some(3), &[]);
         let length = u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]) as usize;
         let header: Value = serde_json::from_slice(&bytes[4..4 + length]).unwrap();
         assert_eq!(header["id"], 3);

@@ -151,8 +151,10 @@ fn text(headers: &HeaderMap, name: header::HeaderName) -> Option<&str> {
 }
 
 fn is_json(headers: &HeaderMap) -> bool {
-    text(headers, header::CONTENT_TYPE)
-        .is_some_and(|kind| kind.split(';').next().unwrap_or("").trim() == "application/json")
+    // RFC 9110, 8.3.1: in any case of letters.
+    text(headers, header::CONTENT_TYPE).is_some_and(|kind| {
+        kind.split(';').next().unwrap_or("").trim().eq_ignore_ascii_case("application/json")
+    })
 }
 
 /// Compares in a time that does not tell how much of it is right.

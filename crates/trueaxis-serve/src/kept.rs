@@ -1,6 +1,7 @@
 //! The last few results of one kind.
 
 use std::collections::VecDeque;
+use std::hash::{BuildHasher, RandomState};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Results by number; the oldest goes when there are too many.
@@ -9,14 +10,20 @@ pub(crate) struct Kept<T> {
     numbered: Mutex<Numbered<T>>,
 }
 
+/// Of the first number: it is written with all its digits in JSON, and in the numbers of a browser.
+const BITS: u32 = 48;
+
 struct Numbered<T> {
     last: u64,
     results: VecDeque<(u64, Arc<T>)>,
 }
 
 impl<T> Kept<T> {
+    /// The numbers begin anywhere: a window that has seen a server end asks the next one for a result that is gone, not
+    /// for that of another window.
     pub(crate) fn of(most: usize) -> Self {
-        Self { most, numbered: Mutex::new(Numbered { last: 0, results: VecDeque::new() }) }
+        let last = RandomState::new().hash_one(()) >> (u64::BITS - BITS);
+        Self { most, numbered: Mutex::new(Numbered { last, results: VecDeque::new() }) }
     }
 
     fn lock(&self) -> MutexGuard<'_, Numbered<T>> {
@@ -47,6 +54,16 @@ impl<T> Kept<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_number_of_another_server_is_gone() {
+        let before = Kept::of(2).put('a').0;
+        let (now, _) = Kept::of(2).put('b');
+        let later = Kept::of(2);
+        let number = later.put('c').0;
+        assert!(before != now && later.of_number(before).is_none());
+        assert!([before, now, number].iter().all(|n| *n <= 1 << BITS));
+    }
 
     #[test]
     fn the_oldest_goes() {

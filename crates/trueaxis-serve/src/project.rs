@@ -279,13 +279,18 @@ impl ExampleEntry {
     }
 }
 
-/// What a file is, by its ending and, for TOML, by its sections; none if the page has no use for it.
-/// Whether the ending of a file is one that [`kind_of`] knows.
+/// Files that are not listed, but named by others: surfaces, calibrations, readings of instruments.
+const NAMED_BY_OTHERS: [&str; 4] = ["stl", "json", "rtl", "rta"];
+
+/// Whether the ending of a file is one that [`kind_of`] knows, or that of files that others name.
 fn has_use(path: &Path) -> bool {
     let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-    ending.is_some_and(|ending| ending == "toml" || kind_by_ending(&ending).is_some())
+    ending.is_some_and(|ending| {
+        ending == "toml" || kind_by_ending(&ending).is_some() || NAMED_BY_OTHERS.contains(&&*ending)
+    })
 }
 
+/// What a file is, by its ending and, for TOML, by its sections; none if the page has no use for it.
 fn kind_of(path: &Path) -> Option<FileKind> {
     let ending = path.extension()?.to_string_lossy().to_ascii_lowercase();
     match &*ending {

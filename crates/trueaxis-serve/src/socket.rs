@@ -4,7 +4,7 @@
 //!     {"id": 7, "ask": "pose", "body": {…}}        from the page
 //!     {"id": 7, "stop": true}                      the answer is not awaited any more
 //!     {"id": 7, "progress": 0.4}                   to the page, any number of times
-//!     {"id": 7, "reply": {…}} | {"id": 7, "error": {…}} | a binary piece with "id": 7
+//!     {"id": 7, "reply": {…}} | {"id": 7, "error": {…}} | a binary piece with "id": 7, each with "files_read"
 //!     {"changed": {"path", "version", "window"}}   another window saved a file
 //! ```
 
@@ -13,7 +13,7 @@ use crate::change::ChangeEntry;
 use crate::desk::{Desk, Halt, Job};
 use crate::refusal::{Refusal, RefusalEntry};
 use crate::request::Message as Answer;
-use crate::turn::answer;
+use crate::turn::{Answered, answer};
 use axum::extract::ws::{Message, WebSocket};
 use futures_util::{SinkExt, StreamExt};
 use serde::{Deserialize, Serialize};
@@ -55,6 +55,8 @@ pub(crate) enum SocketAnswer<'a> {
         id: u64,
         /// The document; its type depends on the request.
         reply: &'a Value,
+        /// The files below the project folder that were read or looked for: where one of them changes, so may the answer.
+        files_read: &'a [String],
     },
     /// The request is refused.
     Error {
@@ -62,6 +64,8 @@ pub(crate) enum SocketAnswer<'a> {
         id: Option<u64>,
         /// Why.
         error: RefusalEntry<'a>,
+        /// The files below the project folder that were read or looked for.
+        files_read: &'a [String],
     },
     /// A file was saved, perhaps by another window.
     Changed {
@@ -144,12 +148,21 @@ pub(crate) async fn serve(
 
 /// To the window; if it is gone, it is not read.
 async fn refuse(out: &mpsc::Sender<Message>, id: Option<u64>, refusal: &Refusal) {
-    let _ = out.send(SocketAnswer::Error { id, error: refusal.entry() }.message()).await;
+    let _ = out
+        .send(SocketAnswer::Error { id, error: refusal.entry(), files_read: &[] }.message())
+        .await;
 }
 
 /// One message of the page.
 async fn take(words: &str, desk: &Arc<Desk>, out: &mpsc::Sender<Message>, open: &Arc<Open>) {
-    let message: Value = serde_json::from_str(words).unwrap_or(Value::Null);
+    let message = match body::parse(words.as_bytes()) {
+        Ok(message) => message,
+        Err(refusal) => {
+            // Whose answer it would be, where that can be read all the same.
+            let message: Value = serde_json::from_str(words).unwrap_or(Value::Null);
+            return refuse(out, message["id"].as_u64(), &refusal).await;
+        }
+    };
     let id = message["id"].as_u64();
     let (id, name, body) = match body::read::<SocketRequest>(message) {
         Ok(SocketRequest { id, stop: Some(true), .. }) => {
@@ -178,10 +191,17 @@ async fn take(words: &str, desk: &Arc<Desk>, out: &mpsc::Sender<Message>, open: 
     let body = body.unwrap_or_else(|| Value::Object(serde_json::Map::new()));
     let (desk, out, open) = (desk.clone(), out.clone(), open.clone());
     tokio::spawn(async move {
-        let message = match answer(desk, &name, body, job).await {
-            Ok(Answer::Json(reply)) => SocketAnswer::Reply { id, reply: &reply }.message(),
-            Ok(Answer::Frame(frame)) => Message::Binary(frame.bytes(Some(id)).into()),
-            Err(refusal) => SocketAnswer::Error { id: Some(id), error: refusal.entry() }.message(),
+        let Answered { result, files_read } = answer(desk, &name, body, job).await;
+        let files_read = &*files_read;
+        let message = match result {
+            Ok(Answer::Json(reply)) => {
+                SocketAnswer::Reply { id, reply: &reply, files_read }.message()
+            }
+            Ok(Answer::Frame(frame)) => Message::Binary(frame.bytes(Some(id), files_read).into()),
+            Err(refusal) => {
+                let error = refusal.entry();
+                SocketAnswer::Error { id: Some(id), error, files_read }.message()
+            }
         };
         let _ = out.send(message).await;
         open.lock().remove(&id);

@@ -93,13 +93,19 @@ impl Drop for GivenUp<'_> {
     }
 }
 
+/// An answer or a refusal, and the files of the project that were read or looked for on the way to it.
+pub(crate) struct Answered {
+    pub(crate) result: Result<Message, Refusal>,
+    pub(crate) files_read: Vec<String>,
+}
+
 /// Answers one request on a thread of its own, in its turn and within its time.
-pub(crate) async fn answer(
-    desk: Arc<Desk>,
-    name: &str,
-    body: Value,
-    job: Job,
-) -> Result<Message, Refusal> {
+pub(crate) async fn answer(desk: Arc<Desk>, name: &str, body: Value, job: Job) -> Answered {
+    let refused = |refusal| Answered { result: Err(refusal), files_read: Vec::new() };
+    worked(desk, name, body, job).await.unwrap_or_else(refused)
+}
+
+async fn worked(desk: Arc<Desk>, name: &str, body: Value, job: Job) -> Result<Answered, Refusal> {
     let Some(Question { pace, work, .. }) = QUESTIONS.iter().find(|a| a.name == name) else {
         let names: Vec<_> = QUESTIONS.iter().map(|a| a.name).collect();
         let message = format!("`{}` is not a known request", short(name));
@@ -110,7 +116,11 @@ pub(crate) async fn answer(
         Pace::Long => (&desk.long, Duration::from_secs(600)),
     };
     let (halt, own) = (job.halt.clone(), desk.clone());
-    let work = move || trueaxis::files::within(own.project.root(), || work(&own, body, &job));
+    let work = move || {
+        let root = own.project.root();
+        let (result, files_read) = trueaxis::files::noted_within(root, || work(&own, body, &job));
+        Ok(Answered { result, files_read })
+    };
     turns.take(most, &halt, work).await
 }
 

@@ -7,8 +7,10 @@ use crate::refusal::{Refusal, RefusedAnswer};
 use crate::request::Message;
 use crate::sending::{MOST_BYTES, received};
 use crate::turn::answer;
-use crate::{page, socket};
+use crate::{body, page, socket};
 use axum::body::{Body, Bytes};
+use axum::extract::rejection::PathRejection;
+use axum::extract::ws::rejection::WebSocketUpgradeRejection;
 use axum::extract::{Path, Request, State, WebSocketUpgrade};
 use axum::http::{StatusCode, header};
 use axum::middleware::{Next, from_fn_with_state};
@@ -39,7 +41,8 @@ pub(crate) fn router(desk: Arc<Desk>, guard: Guard) -> Router {
         .route("/api/{name}", post(ask))
         .route("/report/{number}", get(report))
         .route("/made/{number}/{file}", get(made))
-        .fallback(get(file))
+        .fallback(get(file).fallback(other_method))
+        .method_not_allowed_fallback(other_method)
         .layer(from_fn_with_state(shared.clone(), guarded))
         .with_state(shared)
 }
@@ -109,35 +112,60 @@ async fn file(request: Request) -> Response {
     }
 }
 
+async fn other_method() -> Response {
+    let hint = "POST /api/NAME with JSON; GET for the page, reports and files";
+    let message = "nothing here is asked in this way";
+    refused(&Refusal::new(405, "other-method", message, hint))
+}
+
+/// A path that cannot be read, such as `/report/x`.
+fn no_such(error: &PathRejection) -> Response {
+    refused(&Refusal::new(404, "not-found", format!("no such address: {error}"), "go to /"))
+}
+
 async fn ask(
     State(shared): State<Shared>,
     Extension(place): Extension<Arc<Place>>,
-    Path(name): Path<String>,
-    body: Body,
+    name: Result<Path<String>, PathRejection>,
+    sent: Body,
 ) -> Response {
+    let name = match name {
+        Ok(Path(name)) => name,
+        Err(error) => return no_such(&error),
+    };
     let _ = place.go_on(Stage::Sending);
-    let body = match received(body).await {
+    let bytes = match received(sent).await {
         Ok(body) => body,
         Err(refusal) => return refused(&refusal),
     };
     if !place.go_on(Stage::Working) {
         return refused(&busy("too many requests are being answered"));
     }
-    let body: Value = match serde_json::from_slice(&body) {
+    let body = match body::parse(&bytes) {
         Ok(value) => value,
-        Err(e) => return refused(&Refusal::bad(format!("the body is no JSON: {e}"), "such as {}")),
+        Err(refusal) => return refused(&refusal),
     };
-    match answer(shared.desk, &name, body, Job::new(|_| ())).await {
+    match answer(shared.desk, &name, body, Job::new(|_| ())).await.result {
         Ok(Message::Json(value)) => json_response(StatusCode::OK, &value),
         Ok(Message::Frame(frame)) => {
             let kind = [(header::CONTENT_TYPE, "application/octet-stream")];
-            (kind, frame.bytes(None)).into_response()
+            (kind, frame.bytes(None, &[])).into_response()
         }
         Err(refusal) => refused(&refusal),
     }
 }
 
-async fn open_socket(State(shared): State<Shared>, upgrade: WebSocketUpgrade) -> Response {
+async fn open_socket(
+    State(shared): State<Shared>,
+    upgrade: Result<WebSocketUpgrade, WebSocketUpgradeRejection>,
+) -> Response {
+    let upgrade = match upgrade {
+        Ok(upgrade) => upgrade,
+        Err(error) => {
+            let message = format!("this address is that of a WebSocket: {error}");
+            return refused(&Refusal::bad(message, "GET with Upgrade: websocket"));
+        }
+    };
     let Ok(place) = shared.sockets.clone().try_acquire_owned() else {
         let message = format!("{MOST_SOCKETS} windows are open already");
         return refused(&Refusal::new(503, "busy", message, "close one of them"));
@@ -151,7 +179,14 @@ async fn open_socket(State(shared): State<Shared>, upgrade: WebSocketUpgrade) ->
     })
 }
 
-async fn report(State(shared): State<Shared>, Path(number): Path<u64>) -> Response {
+async fn report(
+    State(shared): State<Shared>,
+    number: Result<Path<u64>, PathRejection>,
+) -> Response {
+    let number = match number {
+        Ok(Path(number)) => number,
+        Err(error) => return no_such(&error),
+    };
     match shared.desk.reports.of_number(number) {
         Some(report) => {
             ([(header::CONTENT_TYPE, report.media_type)], report.bytes.clone()).into_response()
@@ -164,7 +199,14 @@ async fn report(State(shared): State<Shared>, Path(number): Path<u64>) -> Respon
 }
 
 /// A file that an answer made, as it would be written.
-async fn made(State(shared): State<Shared>, Path((number, file)): Path<(u64, usize)>) -> Response {
+async fn made(
+    State(shared): State<Shared>,
+    made: Result<Path<(u64, usize)>, PathRejection>,
+) -> Response {
+    let (number, file) = match made {
+        Ok(Path(made)) => made,
+        Err(error) => return no_such(&error),
+    };
     match shared.desk.made_file(number, file, |_, file| file.content.clone()) {
         Ok(content) => {
             let kind = [

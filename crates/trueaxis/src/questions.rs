@@ -58,7 +58,7 @@ pub use history::{HistoryAnswer, VerifyHistory};
 pub use hits::{HitsAnswer, IdentifySurface};
 pub use identify::{DroppedTable, Identified, Identify};
 pub use job::ProgramChoice;
-pub use machine::MachineChoice;
+pub use machine::{MachineChoice, tool_length};
 pub use measure::{Measure, MeasureAnswer};
 pub use part::{MeasurePart, PartAnswer, VerifyPart, VirtualPartAnswer, VirtualPartDocument};
 pub use part_file::{AskPart, PartFileAnswer};

@@ -7,6 +7,23 @@ import { h, s } from "../dom.ts";
 interface Label {
   element: HTMLElement;
   at: () => Vector3;
+  /** Width and height in pixels, once it was drawn. */
+  size: [number, number] | null;
+}
+
+/** Where labels are put: one that would lie over an earlier one goes below it, none leaves the picture sideways. */
+class Places {
+  private readonly taken: { x: number; y: number; w: number; h: number }[] = [];
+
+  put(x: number, y: number, [w, h]: [number, number], width: number): [number, number] {
+    const place = { x: Math.max(w / 2, Math.min(width - w / 2, x)), y, w, h };
+    // From above: each move down ends at the next free place.
+    for (const other of this.taken.toSorted((a, b) => a.y - b.y))
+      if (Math.abs(place.x - other.x) < (w + other.w) / 2 && Math.abs(place.y - other.y) < (h + other.h) / 2)
+        place.y = other.y + (h + other.h) / 2;
+    this.taken.push(place);
+    return [place.x, place.y];
+  }
 }
 
 export class Overlay {
@@ -36,7 +53,7 @@ export class Overlay {
     if (text === null) return;
     const element = h("span", { class: `scene-label ${kind}` }, text);
     this.layer.append(element);
-    this.labels.set(key, { element, at });
+    this.labels.set(key, { element, at, size: null });
   }
 
   clearLabels(): void {
@@ -61,10 +78,15 @@ export class Overlay {
   }
 
   update(camera: Camera, width: number, height: number): void {
-    for (const { element, at } of this.labels.values()) {
-      const p = at().project(camera);
+    const places = new Places();
+    for (const label of this.labels.values()) {
+      const { element } = label;
+      const p = label.at().project(camera);
       element.hidden = p.z > 1 || Math.abs(p.x) > 1.1 || Math.abs(p.y) > 1.1;
-      element.style.transform = `translate(-50%, -50%) translate(${(((p.x + 1) / 2) * width).toFixed(1)}px, ${(((1 - p.y) / 2) * height).toFixed(1)}px)`;
+      if (element.hidden) continue;
+      label.size ??= element.offsetWidth > 0 ? [element.offsetWidth, element.offsetHeight] : null;
+      const [x, y] = places.put(((p.x + 1) / 2) * width, ((1 - p.y) / 2) * height, label.size ?? [0, 0], width);
+      element.style.transform = `translate(-50%, -50%) translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
     }
     this.drawTriad(camera);
   }

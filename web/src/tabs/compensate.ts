@@ -67,10 +67,10 @@ class CompensateTab implements TabHandle {
   constructor(host: HTMLElement, app: App) {
     this.app = app;
     this.questions = {
-      program: new Question(app, "compensate-program"),
-      tables: new Question(app, "compensate-tables"),
-      values: new Question(app, "compensate-values"),
-      blank: new Question(app, "compensate-adapt"),
+      program: new Question(app, "compensate-program", () => this.askAgain()),
+      tables: new Question(app, "compensate-tables", () => this.askAgain()),
+      values: new Question(app, "compensate-values", () => this.askAgain()),
+      blank: new Question(app, "compensate-adapt", () => this.askAgain()),
     };
     const { left, right } = split(host, "compensate", 0.5);
     left.append(this.pictures);
@@ -91,9 +91,11 @@ class CompensateTab implements TabHandle {
   }
 
   changed(path: string | null): void {
-    const { machine, program, setup, study } = this.choice;
-    if (path !== null && ![machine, program, setup, study].includes(path)) return;
-    if (path === null || path === machine) this.axes_of = null;
+    if (this.questions[this.choice.of].isChangedBy(path)) this.askAgain();
+  }
+
+  private askAgain(): void {
+    this.axes_of = null;
     this.asked = "";
     if (this.app.state.tab === "compensate") void this.run();
   }

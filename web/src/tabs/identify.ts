@@ -39,14 +39,13 @@ class IdentifyTab implements TabHandle {
   /** The campaign that the answer on the page is of. */
   private shown: string | null = null;
   private instruments: Instrument[] = [];
-  private files: string[] = [];
   private dropped: TextFile | null = null;
   private instrument: string | null = null;
   private asked = "";
 
   constructor(host: HTMLElement, app: App) {
     this.app = app;
-    this.question = new Question(app, "identify");
+    this.question = new Question(app, "identify", () => this.askAgain());
     const { left, right } = split(host, "identify", 0.52);
     const pictures = h("div", { class: "scroll pictures" });
     left.append(pictures);
@@ -98,10 +97,13 @@ class IdentifyTab implements TabHandle {
     this.question.stop();
   }
 
-  changed(path: string): void {
-    if (path !== this.campaign && !this.files.includes(path)) return;
+  changed(path: string | null): void {
+    if (this.question.isChangedBy(path)) this.askAgain();
+  }
+
+  private askAgain(): void {
     this.asked = "";
-    void this.run();
+    if (this.app.state.tab === "identify") void this.run();
   }
 
   private take(file: TextFile): void {
@@ -292,7 +294,6 @@ class IdentifyTab implements TabHandle {
     const { header } = frame;
     const { document } = header;
     this.instruments = header.instruments;
-    this.files = [...(header.machine ? [header.machine] : []), ...header.instruments.flatMap((one) => one.tables)];
     this.clear();
     this.shown = this.campaign;
     this.showForm();

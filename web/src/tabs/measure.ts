@@ -53,7 +53,7 @@ class MeasureTab implements TabHandle {
 
   constructor(host: HTMLElement, app: App) {
     this.app = app;
-    this.sheets_question = new Question(app, "measure-sheet");
+    this.sheets_question = new Question(app, "measure-sheet", () => this.askAgain());
     this.virtual_question = new Question(app, "measure");
     const { left, right } = split(host, "measure", 0.6);
     const scroll = h("div", { class: "scroll" }, this.sheet_head, this.view.element);
@@ -80,7 +80,10 @@ class MeasureTab implements TabHandle {
   }
 
   changed(path: string | null): void {
-    if (path !== null && path !== this.campaign && path !== this.answer?.machine_file) return;
+    if (this.sheets_question.isChangedBy(path)) this.askAgain();
+  }
+
+  private askAgain(): void {
     this.asked = "";
     if (this.app.state.tab === "measure") void this.run();
   }

@@ -4,6 +4,7 @@ import { tr } from "../words/index.ts";
 import { diagnosticList, split, type App, type Tab, type TabHandle } from "../app.ts";
 import { numberIn, type Params } from "../address.ts";
 import { latestOnly, type PoseHeader } from "../api.ts";
+import { CONTROLS } from "../controls.ts";
 import { fill, h } from "../dom.ts";
 import type { Figure } from "../figure/index.ts";
 import { deg, mm, number, NARROW_SPACE } from "../format.ts";
@@ -15,13 +16,6 @@ import { dropOn, handOver } from "./measure/drop.ts";
 import type { PlanHeader } from "./plan/documents.ts";
 import { chosenPanel, expectedPanel, pathsPanel, programsPanel, seenPanel, summaryPanel } from "./plan/panels.ts";
 import { StationLayer } from "./plan/stations.ts";
-
-const DIALECTS: readonly [string, string][] = [
-  ["sinumerik", "SINUMERIK 840D"],
-  ["fanuc", "FANUC"],
-  ["linuxcnc", "LinuxCNC"],
-  ["heidenhain", "HEIDENHAIN"],
-];
 
 /** More rows than this make a list slow; the slider reaches every station. */
 const MOST_ROWS = 600;
@@ -53,6 +47,8 @@ class PlanTab implements TabHandle {
   private dialect = "sinumerik";
   private asked = "";
   private machine: string | null = null;
+  /** Its file may have changed since it was drawn. */
+  private is_machine_old = false;
   private tool_mm = 100;
   /** The camera comes close once per machine; then it stays where the user put it. */
   private come_close = false;
@@ -68,7 +64,7 @@ class PlanTab implements TabHandle {
 
   constructor(host: HTMLElement, app: App) {
     this.app = app;
-    this.question = new Question(app, "plan");
+    this.question = new Question(app, "plan", () => this.askAgain());
     const { left, right } = split(host, "plan", 0.54);
     this.view = new MachineView(left);
     this.layer = new StationLayer(this.view);
@@ -131,10 +127,14 @@ class PlanTab implements TabHandle {
     this.question.stop();
   }
 
-  changed(path: string): void {
-    if (path !== this.campaign && path !== this.machine) return;
+  changed(path: string | null): void {
+    if (this.question.isChangedBy(path)) this.askAgain();
+  }
+
+  private askAgain(): void {
     this.asked = "";
-    void this.run();
+    this.is_machine_old = true;
+    if (this.app.state.tab === "plan") void this.run();
   }
 
   private async run(): Promise<void> {
@@ -219,7 +219,7 @@ class PlanTab implements TabHandle {
         dataTest: "dialect",
         onchange: () => this.app.go("plan", { campaign: this.campaign, dialect: select.value }),
       },
-      DIALECTS.map(([key, title]) => h("option", { value: key }, title)),
+      CONTROLS.map(([key, title]) => h("option", { value: key }, title)),
     );
     select.value = this.dialect;
     return select;
@@ -230,13 +230,14 @@ class PlanTab implements TabHandle {
   private async show(frame: Frame<PlanHeader>): Promise<void> {
     const { header } = frame;
     const { document } = header;
-    if (header.machine !== this.machine) {
+    if (header.machine !== this.machine || this.is_machine_old) {
       const described = await this.app.api.ask("describe", { machine: header.machine ?? "" });
       this.view.setMachine(described);
       this.view.setArrowsVisible(false);
       this.tool_mm = described.tool?.length_mm ?? this.tool_mm;
+      this.come_close = header.machine !== this.machine;
       this.machine = header.machine;
-      this.come_close = true;
+      this.is_machine_old = false;
     }
     this.clear();
     this.frame = frame;

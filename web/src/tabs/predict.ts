@@ -13,6 +13,7 @@ import { Details } from "./predict/details.ts";
 import { Drawing } from "./predict/drawing.ts";
 import { Holes } from "./predict/holes.ts";
 import { PieceView } from "./predict/piece.ts";
+import { Reads } from "../reads.ts";
 import { Sections } from "./predict/sections.ts";
 import { studyChoice, Summary } from "./predict/summary.ts";
 import type { DrawingHeader, HolesHeader, PieceFrame } from "./predict/types.ts";
@@ -51,9 +52,14 @@ class PredictTab implements TabHandle {
   private holes: Holes | null = null;
   private drawing: Drawing | null = null;
   private study: string | null = null;
+  /** The study that cannot be predicted as its files are. */
+  private refused: string | null = null;
   /** Whether a part is judged by its program compensated for the machine, too. */
   private compensated = false;
   private stop = new AbortController();
+  private readonly reads = new Reads(() => this.askAgain());
+  /** A file has changed while another tab was shown. */
+  private is_stale = false;
   /** What the address says of how it is shown. */
   private wanted: Params = {};
   private page: Page = "budget";
@@ -86,7 +92,7 @@ class PredictTab implements TabHandle {
     }
     const compensated = params.compensated === "true";
     this.wanted = params;
-    if (wanted === this.study && compensated === this.compensated) {
+    if (wanted === this.study && compensated === this.compensated && !this.is_stale) {
       if (this.base || this.drawing) this.takeState();
       return;
     }
@@ -104,8 +110,18 @@ class PredictTab implements TabHandle {
     );
   }
 
-  changed(path: string): void {
-    if (this.study && (path === this.study || path === this.base?.header.machine)) void this.load(this.study);
+  changed(path: string | null): void {
+    if (this.reads.isChangedBy(path)) this.askAgain();
+  }
+
+  private askAgain(): void {
+    const study = this.study ?? this.refused;
+    this.is_stale = this.app.state.tab !== "predict";
+    if (this.is_stale || !study) return;
+    // What was tried stays.
+    const { what = null } = this.piece && this.base ? { what: this.piece.what_if.state } : this.wanted;
+    this.wanted = { ...this.wanted, ...(what ? { what } : {}) };
+    void this.load(study);
   }
 
   private async load(study: string): Promise<void> {
@@ -113,11 +129,14 @@ class PredictTab implements TabHandle {
     const stop = new AbortController();
     this.stop = stop;
     this.study = study;
+    this.refused = null;
+    this.is_stale = false;
     const progress = this.app.progress(tr`predicting ${study}`);
     try {
       const asked = this.compensated ? { study, compensated: true } : { study };
       const options = { onProgress: progress.report, signal: stop.signal };
-      const frame = (await this.app.api.ask("predict", asked, options)) as unknown as Answer;
+      const frame = (await this.reads.of(this.app.api.ask("predict", asked, options))) as unknown as Answer;
+      if (stop.signal.aborted) return;
       progress.done();
       this.empty.hidden = true;
       this.holes_page.hidden = frame.header.kind !== "holes";
@@ -132,6 +151,7 @@ class PredictTab implements TabHandle {
       progress.done();
       if (stop.signal.aborted) return;
       this.study = null;
+      this.refused = study;
       this.showFailure(study, Refusal.from(error));
     }
   }

@@ -7,6 +7,7 @@ import type { FileKind } from "../api.ts";
 import { download, fill, h } from "../dom.ts";
 import { FileDialog } from "../filedialog.ts";
 import { bytes, listed } from "../format.ts";
+import { Reads } from "../reads.ts";
 import { headingForm } from "./report/heading.ts";
 import { STATED } from "./standards/documents.ts";
 
@@ -90,6 +91,9 @@ class ReportTab implements TabHandle {
   private made: Made | null = null;
   private stop = new AbortController();
   private last = "";
+  /** A report was asked for, not only chosen. */
+  private is_asked = false;
+  private readonly reads = new Reads(() => this.askAgain());
   /** What else readings are evaluated with, as the address states it, for one file and one standard. */
   private evaluated: { of: string; with: Record<string, string | null> } = { of: "", with: {} };
   /** What else a compensation was asked with, as the address states it (JSON), for one kind and its files. */
@@ -169,6 +173,19 @@ class ReportTab implements TabHandle {
     ]);
   }
 
+  /** A report that is shown is that of its files as they are now; a server that was started again has none. */
+  changed(path: string | null): void {
+    if (this.reads.isChangedBy(path)) this.askAgain();
+  }
+
+  private askAgain(): void {
+    const is_same = this.last === this.asked();
+    this.last = "";
+    if (!this.is_asked) return;
+    if (is_same && this.app.state.tab === "report") void this.run();
+    else this.take(null);
+  }
+
   hide(): void {
     // What was being made is asked for again.
     if (this.made === null) this.last = "";
@@ -225,6 +242,7 @@ class ReportTab implements TabHandle {
       ...(this.heading.value ? { heading: this.heading.value } : {}),
     };
     this.last = this.asked();
+    this.is_asked = true;
     this.app.keep("report", {
       verb: body.verb,
       file: body.file,
@@ -240,12 +258,16 @@ class ReportTab implements TabHandle {
     this.make.disabled = true;
     this.take(null);
     try {
-      this.take(await this.app.api.ask("report", body, { onProgress: progress.report, signal: stop.signal }));
+      const options = { onProgress: progress.report, signal: stop.signal };
+      this.take(await this.reads.of(this.app.api.ask("report", body, options)));
     } catch (error) {
       if (!stop.signal.aborted) this.app.fail(error);
     } finally {
-      progress.done();
-      this.make.disabled = false;
+      // A newer one is on its way.
+      if (this.stop === stop) {
+        progress.done();
+        this.make.disabled = false;
+      }
     }
   }
 

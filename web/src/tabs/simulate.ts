@@ -7,6 +7,7 @@ import { numberIn, short, type Params } from "../address.ts";
 import { fill, h } from "../dom.ts";
 import { keepFile, keptFile } from "../files.ts";
 import { tabKey } from "../keys.ts";
+import { Reads } from "../reads.ts";
 import { Exaggeration } from "../scene/exaggeration.ts";
 import { withModels } from "../scene/models.ts";
 import { MachineView } from "../scene/view.ts";
@@ -65,6 +66,9 @@ class SimulateTab implements TabHandle {
   private stated_errors = 0;
   private simulation: Simulation | null = null;
   private stop: AbortController | null = null;
+  private readonly reads = new Reads(() => this.askAgain());
+  /** A file has changed while another tab was shown. */
+  private is_stale = false;
   private moment: Moment | null = null;
   /** Index of the program whose source is shown. */
   private shown_program = 0;
@@ -184,9 +188,9 @@ class SimulateTab implements TabHandle {
           program: params.program ?? null,
           setup: params.setup ?? null,
           control: params.control ?? null,
-          optional: params.optional ?? null,
+          optional: params.optional?.toLowerCase() === "off" ? "off" : null,
         };
-    if (dropped === this.dropped && JSON.stringify(choice) === JSON.stringify(this.choice)) {
+    if (!this.is_stale && dropped === this.dropped && JSON.stringify(choice) === JSON.stringify(this.choice)) {
       if (this.simulation) this.takeState(params);
       else this.wanted = params;
       return;
@@ -213,8 +217,13 @@ class SimulateTab implements TabHandle {
     this.player.pause();
   }
 
-  changed(path: string): void {
-    if (path === this.choice.machine || path === this.choice.program || path === this.choice.setup) void this.run();
+  changed(path: string | null): void {
+    if (this.reads.isChangedBy(path)) this.askAgain();
+  }
+
+  private askAgain(): void {
+    this.is_stale = !this.in_sight;
+    if (this.in_sight) void this.run();
   }
 
   private go(choice: Choice, dropped: Dropped | null): void {
@@ -281,10 +290,11 @@ class SimulateTab implements TabHandle {
     this.stop?.abort();
     const stop = new AbortController();
     this.stop = stop;
+    this.is_stale = false;
     const job = this.job();
     this.clear();
     try {
-      await this.showMachine(stop.signal);
+      await this.reads.of(this.showMachine(stop.signal));
       if (!job) {
         fill(
           this.busy,
@@ -299,7 +309,7 @@ class SimulateTab implements TabHandle {
         this.busy.hidden = false;
         return;
       }
-      const simulation = await this.simulate({ ...job, keep_going }, stop);
+      const simulation = await this.reads.of(this.simulate({ ...job, keep_going }, stop));
       if (stop.signal.aborted) return;
       await this.take(simulation);
     } catch (error) {
@@ -328,18 +338,19 @@ class SimulateTab implements TabHandle {
     this.host.classList.remove("simulated");
   }
 
-  private async showMachine(signal: AbortSignal): Promise<void> {
+  private async showMachine(signal: AbortSignal): Promise<unknown> {
     const machine = this.choice.machine;
-    if (!machine) return;
+    if (!machine) return null;
     this.app.set({ machine });
     const description = await this.app.api.ask("describe", { machine }, { signal });
     const { links, models, tool } = description;
     const { machine: drawn } = await withModels(this.app.api, { machine }, { links, models, tool });
-    if (signal.aborted) return;
+    if (signal.aborted) return description;
     this.drawn = drawn;
     this.stated_errors = description.check.errors?.length ?? 0;
     this.view.setMachine(drawn);
     if (this.wanted.view) this.view.setView(this.wanted.view);
+    return description;
   }
 
   private async simulate(job: Job, stop: AbortController): Promise<Simulation> {

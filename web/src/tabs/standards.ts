@@ -110,7 +110,7 @@ class StandardsTab implements TabHandle {
 
   constructor(host: HTMLElement, app: App) {
     this.app = app;
-    this.question = new Question(app, "evaluate");
+    this.question = new Question(app, "evaluate", () => this.askAgain());
     this.columns = new FileDialog(app, "columns", tr`Columns of the readings`, tr`Save and evaluate`);
     this.stating = new FileDialog(app, "conditions", tr`Conditions of the test`, tr`Save and evaluate`);
     const { left, right } = split(host, "standards", 0.56);
@@ -126,9 +126,11 @@ class StandardsTab implements TabHandle {
       void this.take(fresh);
       return;
     }
-    // Coming back by the tab shows what was there.
-    if (this.shown && (asked(params) === this.last || (!params.path && !params.dropped))) return;
-    void this.openWith(params);
+    // Coming back by the tab shows what was there; not so where something else has been asked since.
+    const goes_on = !params.path && !params.dropped && (this.params.path || this.params.dropped);
+    const wanted = goes_on ? this.params : params;
+    if (this.shown && [wanted, this.params].every((one) => asked(one) === this.last)) return;
+    void this.openWith(wanted);
   }
 
   private async openWith(params: Params): Promise<void> {
@@ -156,8 +158,13 @@ class StandardsTab implements TabHandle {
     this.question.stop();
   }
 
-  changed(path: string): void {
-    if (path === this.params.path || path === this.conditions) void this.run();
+  changed(path: string | null): void {
+    if (this.question.isChangedBy(path)) this.askAgain();
+  }
+
+  private askAgain(): void {
+    this.last = "";
+    if (this.app.state.tab === "standards") void this.run();
   }
 
   private async take(file: TextFile): Promise<void> {
@@ -188,9 +195,10 @@ class StandardsTab implements TabHandle {
   }
 
   private async run(): Promise<void> {
+    const { params } = this;
+    this.question.stop();
     try {
       if (this.standards.length === 0) this.standards = await this.app.api.ask("standards", {});
-      const params = this.params;
       const path = this.dropped ? null : (params.path ?? null);
       const standard = params.standard ?? (await this.standardIn(path)) ?? "iso230-2";
       if (params !== this.params) return;
@@ -215,9 +223,9 @@ class StandardsTab implements TabHandle {
         return;
       }
       const frame = await this.question.ask(this.body(path), tr`evaluating ${path ?? this.dropped?.name ?? ""}`);
-      this.show(frame, path);
+      if (params === this.params) this.show(frame, path);
     } catch (error) {
-      if (isAbort(error)) return;
+      if (isAbort(error) || params !== this.params) return;
       this.clear();
       const [before, after] =
         tr`Readings of the instruments of a campaign are not judged by a standard: drop them in ${"|"}.`.split("|");

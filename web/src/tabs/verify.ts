@@ -92,7 +92,7 @@ class VerifyTab implements TabHandle {
 
   constructor(host: HTMLElement, app: App) {
     this.app = app;
-    this.question = new Question(app, "verify");
+    this.question = new Question(app, "verify", () => this.askAgain());
     const { left, right } = split(host, "verify", 0.5);
     left.append(this.pictures);
     fill(right, this.head, this.result);
@@ -110,9 +110,12 @@ class VerifyTab implements TabHandle {
   }
 
   changed(path: string | null): void {
-    // A campaign names further files: any of them may be meant.
-    const known = path === null || path.endsWith(".csv") || path.endsWith(".toml");
-    if (!known) return;
+    // A history has what its folder has: a new file counts.
+    const is_new = this.choice?.what === "history" && /\.(toml|json)$/.test(path ?? "");
+    if (this.question.isChangedBy(path) || is_new) this.askAgain();
+  }
+
+  private askAgain(): void {
     this.asked = "";
     if (this.app.state.tab === "verify") void this.run();
   }

@@ -35,7 +35,7 @@ use trueaxis_geometry::Vec3;
 use trueaxis_geometry::surface::SurfacePoint;
 use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::errors::ErrorName;
-use trueaxis_motion::{Findings, Observer};
+use trueaxis_motion::{Findings, Observer, Progress};
 use trueaxis_part::part;
 use trueaxis_part::tolerance::Outcome;
 
@@ -121,7 +121,8 @@ pub struct PartPrediction {
     pub errors_without_u: Vec<String>,
 }
 
-/// Cuts the part of a study and judges it. `progress` is called with the share of the Monte Carlo samples that are done, from any thread.
+/// Cuts the part of a study and judges it. `progress` is called with the share of the Monte Carlo samples that are done, from any thread;
+/// before them with 0 again and again, so that work that is not awaited any more can end there.
 ///
 /// # Errors
 /// A program that can't be run, a tool of unknown shape, points that no cutter reaches, points that are cut deeper than
@@ -134,7 +135,7 @@ pub fn predict_part(
     let zero = study.zero(problems)?;
     let mut path = CutPath::new(&study.job, &zero);
     let CutOnce { part, actual: found, by_program, programs } =
-        cut_once(study, &mut path, problems)?;
+        cut_once(study, &mut path, progress, problems)?;
     let nails = nails(&part);
     let place = Place::whole(&study.path.display().to_string());
     let by_program: Vec<f64> = by_program.iter().map(|c| c.deviation_mm).collect();
@@ -197,9 +198,12 @@ struct CutOnce {
 fn cut_once(
     study: &PartStudy,
     path: &mut CutPath<'_>,
+    progress: &dyn Fn(f64),
     problems: &mut Diagnostics,
 ) -> Option<CutOnce> {
-    let Findings { run, .. } = study.job.run(None, &mut [path as &mut dyn Observer]);
+    let mut told = Progress::through(&study.job.program, |_| progress(0.0));
+    let observers: &mut [&mut dyn Observer] = &mut [&mut *path, &mut told];
+    let Findings { run, .. } = study.job.run(None, observers);
     let place = Place::whole(&study.path.display().to_string());
     let left_out = run.motion_left_out().count();
     let has_errors = run.problems.has_errors();
@@ -214,8 +218,11 @@ fn cut_once(
         return None;
     }
     let (actual, nominal) = sweeps(path, place, problems)?;
+    progress(0.0);
     let (part, known) = programmed::completed(study, &nominal, problems)?;
+    progress(0.0);
     let actual = cut(&actual, &nails(&part));
+    progress(0.0);
     let nominal = nominal_cut(&part, &nominal, known);
     let actual = reached(study, &part, &actual, problems)?;
     let by_program = reached(study, &part, &nominal, problems)?;

@@ -1,6 +1,7 @@
 //! The machine: what it is, where its tool is, and one error of it put into its file.
 
 use super::machine::Draft;
+use super::settings::{are_positions, tool_length};
 use crate::desk::{Desk, Job};
 use crate::frame::Array;
 use crate::project::version;
@@ -163,6 +164,9 @@ impl Request for PoseRequest {
         let Draft { machine, mut problems, .. } = Draft::read(desk, &self.machine, self.text)?;
         let Some(mut machine) = machine else { return Err(Refusal::unusable(&problems)) };
         if let Some(length_mm) = self.tool_length_mm {
+            let Some(length_mm) = tool_length(length_mm, &mut problems) else {
+                return Err(Refusal::unusable(&problems));
+            };
             machine = machine.with_tip(Vec3::new(0.0, 0.0, -length_mm));
         }
         let warm = match &self.temperature {
@@ -171,6 +175,9 @@ impl Request for PoseRequest {
             None => Some(machine),
         };
         let place = Place::whole("at");
+        if !are_positions(self.at.as_ref(), &place, &mut problems) {
+            return Err(Refusal::unusable(&problems));
+        }
         let at = self.at.iter().flatten().map(|(name, value)| (name.as_str(), *value));
         let report = warm.as_ref().and_then(|machine| {
             let command = describe::command(machine, at, &place, &mut problems)?;

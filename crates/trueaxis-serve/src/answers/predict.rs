@@ -1,6 +1,6 @@
 //! The test piece before it is cut, and what changes of the machine would do to it.
 
-use super::settings::{ErrorChangeEntry, errors};
+use super::settings::{ErrorChangeEntry, errors, tool_length};
 use crate::desk::{Desk, Job};
 use crate::frame::{Array, Arrays};
 use crate::refusal::{Refusal, entries};
@@ -196,11 +196,15 @@ impl Request for WhatIfRequest {
             Some(text) => Conditions::typed("temperature", text, &mut problems),
             None => None,
         };
+        let length_mm = self.tool_length_mm.map(|mm| tool_length(mm, &mut problems));
+        if length_mm == Some(None) {
+            return Err(Refusal::unusable(&problems));
+        }
         let angles = self.setting_deg.into_iter().flatten();
         let changes = WhatIf {
             errors: errors(self.errors)?,
             setting_rad: angles.map(|(name, deg)| (name, deg.to_radians())).collect(),
-            tool_length_mm: self.tool_length_mm,
+            tool_length_mm: length_mm.flatten(),
             conditions,
         };
         let study = changes.put(study, &mut problems).filter(|_| !problems.has_errors());

@@ -86,6 +86,11 @@ impl Request for SimulateRequest {
 impl SimulateRequest {
     /// As the library is asked.
     pub(super) fn question(self, desk: &Desk, job: &Job) -> Result<Simulate, Refusal> {
+        if self.program.is_some() && (self.name.is_some() || self.text.is_some()) {
+            let message =
+                "`program` is a file of the project, `name` and `text` are one that was dropped";
+            return Err(Refusal::bad(message, "one of both"));
+        }
         let name = match self.text.is_some() {
             true => needed(self.name, "name")?,
             false => needed(self.program, "program")?,

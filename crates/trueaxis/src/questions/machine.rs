@@ -144,7 +144,8 @@ fn named_tool(machine: &Machine, name: &str, problems: &mut Diagnostics) -> Opti
     tool.map(|t| t.length_mm)
 }
 
-fn tool_length(text: &str, problems: &mut Diagnostics) -> Option<f64> {
+/// The length of a tool as typed, mm: none where it is no length of a tool.
+pub fn tool_length(text: &str, problems: &mut Diagnostics) -> Option<f64> {
     let refuse = |e: QuantityError| {
         let hint = "a plain number, in mm: --tool-length 100";
         problems.error(e.code(), Place::whole("--tool-length"), e.to_string(), hint);

@@ -41,11 +41,3 @@ export interface Choice {
   /** Options that are on, by their names on the command line. */
   options: readonly string[];
 }
-
-export const CONTROLS: readonly [string, string][] = [
-  ["sinumerik", "SINUMERIK"],
-  ["fanuc", "FANUC"],
-  ["haas", "Haas"],
-  ["linuxcnc", "LinuxCNC"],
-  ["heidenhain", "HEIDENHAIN"],
-];

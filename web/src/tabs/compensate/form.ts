@@ -5,7 +5,8 @@ import type { App } from "../../app.ts";
 import type { FileKind } from "../../api.ts";
 import { h, type Child } from "../../dom.ts";
 import { fileSelect } from "../measure/ask.ts";
-import { CONTROLS, KINDS, type Choice, type Of } from "./documents.ts";
+import { CONTROLS } from "../../controls.ts";
+import { KINDS, type Choice, type Of } from "./documents.ts";
 
 export interface Target {
   key: string;

@@ -158,7 +158,7 @@ export class DescribeTab implements TabHandle {
   changed(path: string | null): void {
     for (const draft of this.drafts.values()) if (path === null || path === draft.path) void this.compare(draft);
     // It may be a table or a model that the machine file names.
-    if (this.draft && path !== null && !this.drafts.has(path)) this.refresh();
+    if (this.draft && (path === null || !this.drafts.has(path))) this.refresh();
   }
 
   private moveTo({ links }: Description, at: string): void {

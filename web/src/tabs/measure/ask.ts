@@ -5,6 +5,7 @@ import { tr, trText } from "../../words/index.ts";
 import { diagnosticList, type App } from "../../app.ts";
 import { Refusal, type Diagnostic, type ProjectFile, type Reply, type Request } from "../../api.ts";
 import { fill, h, type Child } from "../../dom.ts";
+import { Reads } from "../../reads.ts";
 import { count } from "./words.ts";
 
 /** Questions of tabs that ask one at a time. */
@@ -25,11 +26,19 @@ type Asked =
 export class Question<N extends Asked> {
   private readonly app: App;
   private readonly name: N;
+  private readonly reads: Reads;
   private running: AbortController | null = null;
 
-  constructor(app: App, name: N) {
+  /** `again` asks once more: a file was changed while the question was under way. */
+  constructor(app: App, name: N, again: () => void = () => {}) {
     this.app = app;
     this.name = name;
+    this.reads = new Reads(again);
+  }
+
+  /** Whether its answer is of another state of the files; null: any file may have changed. */
+  isChangedBy(path: string | null): boolean {
+    return this.reads.isChangedBy(path);
   }
 
   stop(): void {
@@ -43,10 +52,11 @@ export class Question<N extends Asked> {
     this.running = own;
     const progress = this.app.progress(text);
     try {
-      return await this.app.api.ask(this.name, body, {
+      const asking = this.app.api.ask(this.name, body, {
         signal: own.signal,
         onProgress: (share, note) => progress.report(share, note ? trText(note) : text),
       });
+      return await this.reads.of(asking);
     } finally {
       if (this.running === own || this.running === null) progress.done();
     }

@@ -11,6 +11,7 @@ import type {
 } from "../../../types.d.ts";
 import type { Model, Question, Reply, Request } from "../../api.ts";
 import type { Frame } from "../../frame.ts";
+import { sameFiles } from "../../api.ts";
 import { modelsOf } from "../../scene/models.ts";
 
 export type SimulationHeader = ServeSimulate;
@@ -70,7 +71,7 @@ export class Simulation {
       onProgress: watch.progress,
       signal: watch.signal,
     });
-    return new Simulation(app, frame);
+    return sameFiles(new Simulation(app, frame), frame);
   }
 
   at(time_s: number): Promise<Frame<{ moment: Moment }>> {

@@ -3,6 +3,7 @@
 import { tr } from "../../words/index.ts";
 import type { App } from "../../app.ts";
 import { Refusal, type FileKind } from "../../api.ts";
+import { CONTROLS } from "../../controls.ts";
 import { fill, h } from "../../dom.ts";
 
 export interface Dropped {
@@ -21,14 +22,11 @@ export interface Choice {
   optional: string | null;
 }
 
+/** The set-up and control of one program are not those of another. */
+const OF_PROGRAM = { setup: null, control: null, optional: null };
+
 export const NOTHING_CHOSEN: Choice = { machine: null, program: null, setup: null, control: null, optional: null };
 
-const CONTROLS: readonly [string, string][] = [
-  ["sinumerik", "SINUMERIK"],
-  ["fanuc", "FANUC"],
-  ["linuxcnc", "LinuxCNC"],
-  ["heidenhain", "HEIDENHAIN"],
-];
 /** The server takes 64 MiB at once; line ends become longer on the way. */
 const MOST_BYTES = 60e6;
 
@@ -72,7 +70,8 @@ export class Choices {
         this.select(
           "setup",
           this.files("setup", choice.setup),
-          dropped ? tr`none` : tr`beside the program`,
+          // The title has the whole: the file beside the program.
+          dropped ? tr`none` : tr`auto`,
           choice.setup,
         ),
         h(
@@ -85,7 +84,7 @@ export class Choices {
         tr`Control`,
         this.select("control", CONTROLS, tr`automatic`, choice.control),
         // In one row with it, so that the readout stays in sight on small screens.
-        this.select("optional", [["off", tr`optional blocks left out`]], tr`optional blocks executed`, choice.optional),
+        this.select("optional", [["off", tr`skip / blocks`]], tr`run / blocks`, choice.optional),
       ),
     );
   }
@@ -114,7 +113,9 @@ export class Choices {
       );
       return;
     }
-    this.pick({ ...this.choice, program: null }, { name: file.name, text });
+    // The same file again may be a later text of it.
+    const fresh = this.dropped?.name === file.name ? {} : OF_PROGRAM;
+    this.pick({ ...this.choice, ...fresh, program: null }, { name: file.name, text });
   }
 
   private labelled(title: string, ...parts: HTMLElement[]): HTMLElement {
@@ -141,13 +142,18 @@ export class Choices {
     const titles: Record<keyof Choice, string> = {
       machine: tr`Machine file`,
       program: tr`NC program`,
-      setup: tr`Set-up: work offsets, tools, stock`,
+      setup: tr`Set-up: work offsets, tools, stock; auto: the file of the same name beside the program`,
       control: tr`Whose program it is`,
-      optional: tr`Blocks that begin with /: the switch of the control leaves them out`,
+      optional: tr`Optional blocks, which begin with /: executed, or left out as by the switch of the control`,
     };
     const select = h(
       "select",
-      { ariaLabel: titles[key], dataChoice: key, onchange: () => this.changed(key, select.value || null) },
+      {
+        ariaLabel: titles[key],
+        title: titles[key],
+        dataChoice: key,
+        onchange: () => this.changed(key, select.value || null),
+      },
       h("option", { value: "", disabled: key === "machine" || key === "program" }, none),
       options.map(([path, word]) => h("option", { value: path }, word)),
     );
@@ -156,8 +162,7 @@ export class Choices {
   }
 
   private changed(key: keyof Choice, value: string | null): void {
-    // The set-up and control of one program are not those of another.
-    const fresh = key === "program" ? { setup: null, control: null, optional: null } : {};
+    const fresh = key === "program" ? OF_PROGRAM : {};
     this.pick({ ...this.choice, ...fresh, [key]: value }, key === "program" ? null : this.dropped);
   }
 }

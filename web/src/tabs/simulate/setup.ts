@@ -2,6 +2,7 @@
 
 import { tr } from "../../words/index.ts";
 import type { App } from "../../app.ts";
+import { CONTROLS } from "../../controls.ts";
 import { fill, h } from "../../dom.ts";
 import { FileDialog, type FileForm } from "../../filedialog.ts";
 import type { SimulatedAxis } from "./answers.ts";
@@ -19,7 +20,7 @@ export interface SetUpOf {
   tools: readonly number[];
 }
 
-const CONTROLS = ["", "sinumerik", "fanuc", "haas", "linuxcnc", "heidenhain"];
+const NAMES = ["", ...CONTROLS.map(([name]) => name)];
 const OFFSETS = ["G54", "G55", "G56", "G57", "G58", "G59"];
 
 /** The file beside a program that is read with it. */
@@ -71,7 +72,7 @@ function setUpForm(of: SetUpOf): FileForm {
         { class: "muted" },
         tr`What is not known may stay empty: it counts as 0. Lengths in mm, angles in degrees.`,
       ),
-      h("div", { class: "file-dialog-fields" }, choice(tr`Control`, CONTROLS, form, "control", tr`automatic`)),
+      h("div", { class: "file-dialog-fields" }, choice(tr`Control`, NAMES, form, "control", tr`automatic`)),
       h(
         "fieldset",
         {},

@@ -103,6 +103,7 @@ export const codes: Dictionary = {
   "cannot-serve": "Server nicht betriebsbereit",
   "bad-request": "Anfrage unzulässig",
   "unknown-request": "Anfrage unbekannt",
+  "other-method": "Art der Anfrage (Methode) hier unzulässig",
   "not-json": "Anfrage nicht als JSON gesendet",
   "not-found": "Adresse nicht vorhanden",
   "no-token": "Zugangsschlüssel (Token) fehlt",

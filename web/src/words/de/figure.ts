@@ -5,6 +5,8 @@ export const texts: Dictionary = {
   "no connection to TrueAxis": "keine Verbindung zu TrueAxis",
   "Is `trueaxis serve` still running? The page reconnects by itself.":
     "Läuft `trueaxis serve` noch? Die Seite verbindet sich von selbst wieder.",
+  "`trueaxis serve` was started again: open the new link that it printed.":
+    "`trueaxis serve` wurde neu gestartet: den neuen Link öffnen, den es ausgegeben hat.",
   Cancel: "Abbrechen",
   "saved as {0}": "wird gespeichert als {0}",
   "a date is written 2026-11-28": "ein Datum wird 2026-11-28 geschrieben",

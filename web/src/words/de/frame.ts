@@ -16,6 +16,8 @@ export const texts: Dictionary = {
   Language: "Sprache",
   "connecting …": "Verbindung wird hergestellt …",
   "no connection – trying again": "keine Verbindung – neuer Versuch",
+  "{0} could not be loaded": "{0} konnte nicht geladen werden",
+  "Load the page again": "Seite neu laden",
   "Resize the picture": "Größe des Bildes ändern",
   Close: "Schließen",
   Everywhere: "Überall",

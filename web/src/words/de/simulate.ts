@@ -31,7 +31,7 @@ export const texts: Dictionary = {
   "Otherwise it is drawn as the program leaves it": "Sonst wird es gezeigt, wie das Programm es zurücklässt",
   "{0} removed": "{0} abgetragen",
   "Work offset, tools, stock": "Nullpunktverschiebung, Werkzeuge, Rohteil",
-  "Edit …": "Bearbeiten …",
+  "Edit …": "Ändern …",
   "{0} is larger than 60 MB": "{0} ist größer als 60 MB",
   "Put it into the project folder and choose it there, or simulate it with `trueaxis simulate`.":
     "In den Projektordner legen und dort wählen oder mit `trueaxis simulate` simulieren.",
@@ -40,11 +40,13 @@ export const texts: Dictionary = {
     "Ein NC-Programm ablegen, wie die Steuerung es liest (SINUMERIK, FANUC, LinuxCNC oder HEIDENHAIN-Klartext).",
   "choose a program": "Programm wählen",
   "{0} (of this computer)": "{0} (von diesem Rechner)",
-  "Set-up: work offsets, tools, stock": "Aufspannung: Nullpunktverschiebungen, Werkzeuge, Rohteil",
-  "optional blocks left out": "Ausblendsätze aus",
-  "optional blocks executed": "Ausblendsätze an",
-  "Blocks that begin with /: the switch of the control leaves them out":
-    "Sätze mit / am Anfang: der Schalter der Steuerung blendet sie aus",
+  "Set-up: work offsets, tools, stock; auto: the file of the same name beside the program":
+    "Aufspannung: Nullpunktverschiebungen, Werkzeuge, Rohteil; auto: die Datei gleichen Namens beim Programm",
+  auto: "auto",
+  "skip / blocks": "ohne /-Sätze",
+  "run / blocks": "mit /-Sätzen",
+  "Optional blocks, which begin with /: executed, or left out as by the switch of the control":
+    "Ausblendsätze, die mit / beginnen: ausgeführt, oder weggelassen wie mit dem Schalter der Steuerung",
   "Whose program it is": "Für welche Steuerung das Programm ist",
   speed: "Geschwindigkeit",
   normal: "Normale",

@@ -103,6 +103,7 @@ export const codes: Dictionary = {
   "cannot-serve": "服务器无法运行",
   "bad-request": "请求无效",
   "unknown-request": "未知请求",
+  "other-method": "此地址不支持该请求方法",
   "not-json": "请求未以 JSON 发送",
   "not-found": "地址不存在",
   "no-token": "缺少访问令牌",

@@ -5,6 +5,8 @@ export const texts: Dictionary = {
   "no connection to TrueAxis": "未连接到 TrueAxis",
   "Is `trueaxis serve` still running? The page reconnects by itself.":
     "`trueaxis serve` 是否仍在运行？页面会自动重新连接。",
+  "`trueaxis serve` was started again: open the new link that it printed.":
+    "`trueaxis serve` 已重新启动：请打开它输出的新链接。",
   Cancel: "取消",
   "saved as {0}": "保存为 {0}",
   "a date is written 2026-11-28": "日期格式为 2026-11-28",

@@ -16,6 +16,8 @@ export const texts: Dictionary = {
   Language: "语言",
   "connecting …": "正在连接 …",
   "no connection – trying again": "连接已断开，正在重试",
+  "{0} could not be loaded": "{0} 无法加载",
+  "Load the page again": "重新加载页面",
   "Resize the picture": "调整图的大小",
   Close: "关闭",
   Everywhere: "全部页面",

@@ -38,10 +38,13 @@ export const texts: Dictionary = {
     "请拖放数控系统可读取的 NC 程序（SINUMERIK、FANUC、LinuxCNC 或 HEIDENHAIN Klartext）。",
   "choose a program": "选择程序",
   "{0} (of this computer)": "{0}（本机文件）",
-  "Set-up: work offsets, tools, stock": "装夹设置：工件偏置、刀具、毛坯",
-  "optional blocks left out": "跳过可选程序段",
-  "optional blocks executed": "执行可选程序段",
-  "Blocks that begin with /: the switch of the control leaves them out": "以 / 开头的程序段:控制面板上的开关可将其跳过",
+  "Set-up: work offsets, tools, stock; auto: the file of the same name beside the program":
+    "装夹设置：工件偏置、刀具、毛坯；自动：与程序同目录的同名文件",
+  auto: "自动",
+  "skip / blocks": "跳过 / 段",
+  "run / blocks": "执行 / 段",
+  "Optional blocks, which begin with /: executed, or left out as by the switch of the control":
+    "以 / 开头的可选程序段：执行，或如控制面板开关那样跳过",
   "Whose program it is": "程序所用的数控系统",
   speed: "速度",
   normal: "法向",

@@ -143,17 +143,21 @@ pub(super) fn values(
 ) -> Result<Judged, String> {
     let stated = study.mounted.stated_errors();
     let Shifts { absent, uncertain: shifts } = shifts(study, path, (nails, cuts))?;
+    progress(0.0);
     let evaluate = |deviation_mm: &[f64]| part.evaluate(deviation_mm).map_err(|e| e.to_string());
     let actual = evaluate(deviations)?;
     let nominal = evaluate(by_program)?;
     let by_points = part.by_points_mm(deviations).map_err(|e| e.to_string())?;
     let by_measuring = study.measurement.map(|by| measured(part, deviations, &by)).transpose()?;
-    let u_mm = propagated(part, (deviations, &actual), &shifts)?;
+    let u_mm = propagated(part, (deviations, &actual), &shifts, progress)?;
     let drawn =
         study.sampling.map(|s| many(part, (deviations, &shifts), s, progress)).transpose()?;
     let without: Vec<Vec<f64>> = absent
         .par_iter()
-        .map(|shifts| evaluate(&added(deviations, shifts, 1.0)))
+        .map(|shifts| {
+            progress(1.0);
+            evaluate(&added(deviations, shifts, 1.0))
+        })
         .collect::<Result<_, _>>()?;
     let value = |(i, asked): (usize, &part::Characteristic)| {
         let (value_mm, u_mm, points_mm) = (actual[i], u_mm[i], by_points[i]);
@@ -203,8 +207,10 @@ fn propagated(
     part: &part::Part,
     (deviations, actual): (&[f64], &[f64]),
     shifts: &[Vec<f64>],
+    progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Vec<f64>, String> {
     let evaluate = |shift: &[f64], half: f64| {
+        progress(0.0);
         part.evaluate(&added(deviations, shift, half)).map_err(|e| e.to_string())
     };
     let ends = |shift: &Vec<f64>| Ok([evaluate(shift, 0.5)?, evaluate(shift, -0.5)?]);
@@ -215,7 +221,7 @@ fn propagated(
     let all = 0..part.characteristics.len();
     let has_kink = |i: usize| even(i) > KINK * odd(i) && even(i) > LEAST_MM * LEAST_MM;
     let drawn = match all.clone().any(has_kink) {
-        true => Some(many(part, (deviations, shifts), DRAWN, &|_| {})?),
+        true => Some(many(part, (deviations, shifts), DRAWN, &|_| progress(0.0))?),
         false => None,
     };
     let u_mm = |i: usize| match drawn.as_ref().filter(|_| has_kink(i)) {

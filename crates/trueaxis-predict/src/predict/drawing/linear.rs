@@ -25,7 +25,7 @@ impl LinearPart {
     pub fn new(study: &PartStudy, problems: &mut Diagnostics) -> Option<Self> {
         let zero = study.zero(problems)?;
         let mut path = CutPath::new(&study.job, &zero);
-        let made = cut_once(study, &mut path, problems)?;
+        let made = cut_once(study, &mut path, &|_| (), problems)?;
         let nails = nails(&made.part);
         match shifts(study, &path, (&nails, &made.actual)) {
             Ok(shifts) => {
