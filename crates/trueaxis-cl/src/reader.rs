@@ -2,6 +2,7 @@
 
 mod circle;
 mod cycle;
+mod end;
 mod technology;
 mod transformation;
 
@@ -60,6 +61,7 @@ pub(super) fn read(
         let (line, span) = (statement.line, statement.span.clone());
         take(line, span, reader.word(&statement));
     }
+    reader.check_end(&scanner, source);
     reader.finish()
 }
 
@@ -97,6 +99,12 @@ struct Reader<'n> {
     cycle: Option<ClCycle>,
     /// The line of FINI or END.
     ended: Option<u32>,
+    /// Whether anything was a word of APT, and not a row of a table.
+    has_words: bool,
+    /// Whether the last statement ended one of several paths.
+    path_ended: bool,
+    /// The line of the cycle that is on.
+    cycle_on: Option<u32>,
     /// Points whose vector is not of length 1: their number, the first line, the worst length.
     off: (usize, u32, f64),
 }
@@ -128,6 +136,9 @@ impl<'n> Reader<'n> {
             technology: technology::Technology::default(),
             cycle: None,
             ended: None,
+            has_words: false,
+            path_ended: false,
+            cycle_on: None,
             off: (0, 0, 1.0),
         }
     }
@@ -202,6 +213,7 @@ impl<'n> Reader<'n> {
     }
 
     fn word(&mut self, s: &Statement) -> Word {
+        self.path_ended &= s.word.is_empty() && s.text.trim().is_empty();
         if s.of_creo {
             return self.record_of_creo(s);
         }
@@ -269,6 +281,7 @@ impl<'n> Reader<'n> {
     }
 
     fn known(&mut self, major: Major, s: &Statement) -> Result<Word, Fault> {
+        self.has_words = true;
         Ok(match major {
             Major::Goto => Word::Goto(self.point(s)?),
             Major::GoDelta => Word::Goto(self.delta(s)?),
@@ -325,7 +338,10 @@ impl<'n> Reader<'n> {
             }
             Major::Comment => Word::Comment(s.rest().to_owned()),
             // END-OF-PATH of NX ends one of several.
-            Major::End if s.text.trim_start()[s.word.len()..].starts_with('-') => Word::Noted,
+            Major::End if s.text.trim_start()[s.word.len()..].starts_with('-') => {
+                self.path_ended = true;
+                Word::Noted
+            }
             Major::End => {
                 self.ended = Some(s.line);
                 Word::End
@@ -409,6 +425,7 @@ impl<'n> Reader<'n> {
         }
         self.note_norm(norm, line);
         self.warn_after_end(line);
+        (self.has_words, self.path_ended) = (true, false);
         self.points += 1;
         let axis = vector.map(|v| v / norm);
         (self.tip_mm, self.axis) = (Some(tip_mm), Some(axis));

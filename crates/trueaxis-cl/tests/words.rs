@@ -6,8 +6,10 @@ use trueaxis_nc::moves::{Coolant, Feed, FeedMode, SpindleDirection};
 
 const HEAD: &str = "UNITS/MM\nSPINDL/RPM,1200,CLW\nFEDRAT/500,MMPM\nGOTO/0,0,30,0,0,1\n";
 
+/// A file that ends as it should.
 fn read(text: &str) -> (Vec<Word>, Vec<(usize, &'static str)>) {
-    let (file, problems) = ClFile::read("a.cls", text.as_bytes().to_vec(), &Reading::default());
+    let text = format!("{}\nFINI\n", text.trim_end()).into_bytes();
+    let (file, problems) = ClFile::read("a.cls", text, &Reading::default());
     let found = problems.iter().map(|p| (p.place.line, p.code)).collect();
     (file.records().iter().map(|r| r.word.clone()).collect(), found)
 }
@@ -232,7 +234,8 @@ fn coolant_and_tools_are_those_of_the_file() {
 #[test]
 fn law_a_tool_axis_holds_until_another_one() {
     let axes = |text: &str| -> (Vec<[f64; 3]>, Vec<(usize, &'static str)>) {
-        let (file, problems) = ClFile::read("a", text.as_bytes().to_vec(), &Reading::default());
+        let text = format!("{text}FINI\n").into_bytes();
+        let (file, problems) = ClFile::read("a", text, &Reading::default());
         let found = problems.iter().map(|p| (p.place.line, p.code)).collect();
         (file.points().map(|(_, p)| p.axis).collect(), found)
     };
@@ -309,7 +312,7 @@ fn words_that_move_the_points_are_applied_or_refused() {
     }
     refused("TRANS/1e9,0,0", "too-far");
     let severities = |line: &str| -> Vec<Severity> {
-        let text = format!("{HEAD}{line}\n").into_bytes();
+        let text = format!("{HEAD}{line}\nFINI\n").into_bytes();
         let (_, problems) = ClFile::read("a", text, &Reading::default());
         problems.iter().map(|p| p.severity).collect()
     };
@@ -325,7 +328,7 @@ fn words_that_move_the_points_are_applied_or_refused() {
 #[test]
 fn trans_displaces_points_and_circles() {
     let text = "UNITS/INCHES\nFEDRAT/9\nGOTO/1,0,0,0,0,1\nTRANS/1,2,3\nGOTO/1,0,0,0,0,1\n\
-                CIRCLE/0,0,0,0,0,1,1\nGOTO/0,1,0\nGODLTA/0,0,1\nTRANS/OFF\nGOTO/1,0,0,0,0,1\n";
+                CIRCLE/0,0,0,0,0,1,1\nGOTO/0,1,0\nGODLTA/0,0,1\nTRANS/OFF\nGOTO/1,0,0,0,0,1\nFINI\n";
     let (file, problems) = ClFile::read("a", text.as_bytes().to_vec(), &Reading::default());
     assert!(problems.iter().next().is_none(), "{problems:?}");
     let inches = |p: [f64; 3]| p.map(|v| (v / 25.4 * 1e9).round() / 1e9);

@@ -258,6 +258,7 @@ fn paths_with_slips() {
     let whole = parts();
     let cut = Parts { path: whole.path[..whole.path.len() - 50].to_owned(), ..whole.clone() };
     reported("cut", &cut, 2, "bad-number", "bangle-adapt.cls:200");
+    reported("cut-file", &cut, 2, "cut-file", "bangle-adapt.cls:200");
     reported("no-end", &whole.clone().with_path("FINI\n", ""), 0, "no-end", "FINI");
     let circle = "MULTAX/ON\nCIRCLE/0,0,0,0,0,1,5";
     reported("circle", &whole.clone().with_path("MULTAX/ON", circle), 2, "curve", ":7:");

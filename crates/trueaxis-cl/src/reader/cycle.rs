@@ -49,6 +49,16 @@ impl Reader<'_> {
     /// zero), DEPTH … CLEAR … RETURN (CATIA), or depth, feed, unit, clearance without words. CYCLE/DEEP or DEEP with
     /// 1STPECK and SUBPECK, or STEP, pecks.
     pub(super) fn cycle(&mut self, s: &Statement) -> Result<Word, Fault> {
+        let word = self.cycle_or_off(s)?;
+        match word {
+            Word::Cycle(_) => self.cycle_on = self.cycle_on.or(Some(s.line)),
+            Word::CycleOff => self.cycle_on = None,
+            _ => {}
+        }
+        Ok(word)
+    }
+
+    fn cycle_or_off(&mut self, s: &Statement) -> Result<Word, Fault> {
         let kind = s.argument(0).to_ascii_uppercase();
         match kind.as_str() {
             "OFF" | "NOMORE" => return Ok(Word::CycleOff),

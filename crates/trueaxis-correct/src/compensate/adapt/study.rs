@@ -220,12 +220,6 @@ fn read_path(files: &Files, path: &Path, problems: &mut Diagnostics) -> Option<C
     let (file, found) = ClFile::read(&path.display().to_string(), text, &Reading::default());
     let sound = !found.has_errors();
     problems.append(found);
-    let ends = file.records().iter().any(|r| r.word == trueaxis_cl::Word::End);
-    if sound && !ends && !file.is_table() {
-        let place = Place::whole(file.name());
-        let hint = "is the file whole? APT ends with FINI";
-        problems.warn("no-end", place, "the path has no FINI".to_owned(), hint);
-    }
     let places = file.points().count();
     if places > MOST_PLACES {
         let message = format!("{places} places of the tool are more than {MOST_PLACES}");
