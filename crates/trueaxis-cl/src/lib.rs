@@ -125,8 +125,8 @@ pub enum Word {
     Cutter {
         /// Cutting diameter, mm.
         diameter_mm: f64,
-        /// Radius of the corner, mm.
-        corner_radius_mm: f64,
+        /// Radius of the corner, if it is stated, mm.
+        corner_radius_mm: Option<f64>,
     },
     /// TLAXIS: the tool axis of the following points without vector.
     ToolAxis([f64; 3]),

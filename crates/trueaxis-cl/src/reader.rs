@@ -313,8 +313,8 @@ impl<'n> Reader<'n> {
             Major::Cutter => Word::Cutter {
                 diameter_mm: number(s.argument(0))? * self.unit_mm,
                 corner_radius_mm: match s.argument(1) {
-                    "" => 0.0,
-                    text => number(text)? * self.unit_mm,
+                    "" => None,
+                    text => Some(number(text)? * self.unit_mm),
                 },
             },
             Major::ToolAxis => self.tool_axis(s)?,

@@ -119,7 +119,7 @@ fn a_file_by_hand() {
             && has(Word::Delay(2.0))
             && has(Word::End)
     );
-    assert!(has(Word::Cutter { diameter_mm: 10.0, corner_radius_mm: 2.0 }));
+    assert!(has(Word::Cutter { diameter_mm: 10.0, corner_radius_mm: Some(2.0) }));
     assert!(has(Word::Spindle(SpindleDirection::CounterClockwise, Some(1000.0))));
     assert!(has(Word::Comment("A $ B".to_owned())));
     let circle = ClCircle { center_mm: [0.0, 0.0, 6.0], normal: [0.0, 0.0, 1.0] };

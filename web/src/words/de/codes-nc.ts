@@ -283,6 +283,7 @@ export const codes: Dictionary = {
   "nothing-cut": "Bahn berührt angetastete Fläche nicht",
   curve: "Kurve nicht längs der Normalen verschiebbar",
   "too-many-places": "Zu viele Bahnpunkte",
+  "other-cutter": "Anderer Fräser als in der Studie",
   "bad-cutter": "Eckenradius passt nicht zum Fräserdurchmesser",
   "too-few-points": "Zu wenige Punkte",
   "large-deviation": "Abweichung unplausibel groß",

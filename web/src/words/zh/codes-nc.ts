@@ -283,6 +283,7 @@ export const codes: Dictionary = {
   "nothing-cut": "轨迹未接触已测表面",
   curve: "曲线无法沿法向移动",
   "too-many-places": "轨迹点过多",
+  "other-cutter": "铣刀与研究文件不同",
   "bad-cutter": "圆角半径与铣刀直径不符",
   "too-few-points": "点数不足",
   "large-deviation": "偏差过大，不合理",
