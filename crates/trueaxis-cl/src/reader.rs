@@ -1,5 +1,6 @@
 //! From statements to records: units, modal words and diagnostics.
 
+mod along;
 mod circle;
 mod cycle;
 mod end;
@@ -103,6 +104,8 @@ struct Reader<'n> {
     has_words: bool,
     /// Whether the last statement ended one of several paths.
     path_ended: bool,
+    /// Where the next circle begins to: INDIRV.
+    direction: Option<[f64; 3]>,
     /// The line of the cycle that is on.
     cycle_on: Option<u32>,
     /// Points whose vector is not of length 1: their number, the first line, the worst length.
@@ -138,6 +141,7 @@ impl<'n> Reader<'n> {
             ended: None,
             has_words: false,
             path_ended: false,
+            direction: None,
             cycle_on: None,
             off: (0, 0, 1.0),
         }
@@ -292,6 +296,11 @@ impl<'n> Reader<'n> {
                 Word::From(point)
             }
             Major::Circle => Word::Circle(self.circle(s)?),
+            Major::Direction => {
+                self.direction = Some(self.numbers::<3>(s, 0)?);
+                Word::Noted
+            }
+            Major::Along => self.along(s)?,
             Major::Rapid if s.argument(0).eq_ignore_ascii_case("OFF") => {
                 self.rapid = false;
                 Word::Noted
@@ -347,6 +356,7 @@ impl<'n> Reader<'n> {
                 Word::End
             }
             Major::Synonym => self.synonym(s),
+            Major::Noted if s.word.starts_with("TL") && s.count() > 0 => self.along(s)?,
             Major::Noted | Major::Load => Word::Noted,
             Major::NotApplied(what) => self.not_applied(what, s),
             Major::Translation => self.translate(s)?,
@@ -402,7 +412,7 @@ impl<'n> Reader<'n> {
     ) -> Result<ClPoint, Fault> {
         let axis = self.axis_of_point(own, s)?;
         self.warn_after_end(s.line);
-        self.tip_mm = Some(tip_mm);
+        (self.tip_mm, self.direction) = (Some(tip_mm), None);
         let rapid = std::mem::take(&mut self.rapid);
         Ok(ClPoint { tip_mm, axis, rapid, feed: self.feed })
     }
@@ -428,7 +438,7 @@ impl<'n> Reader<'n> {
         (self.has_words, self.path_ended) = (true, false);
         self.points += 1;
         let axis = vector.map(|v| v / norm);
-        (self.tip_mm, self.axis) = (Some(tip_mm), Some(axis));
+        (self.tip_mm, self.axis, self.direction) = (Some(tip_mm), Some(axis), None);
         let rapid = std::mem::take(&mut self.rapid);
         Some(ClPoint { tip_mm, axis, rapid, feed: self.feed })
     }

@@ -122,7 +122,7 @@ fn a_file_by_hand() {
     assert!(has(Word::Cutter { diameter_mm: 10.0, corner_radius_mm: Some(2.0) }));
     assert!(has(Word::Spindle(SpindleDirection::CounterClockwise, Some(1000.0))));
     assert!(has(Word::Comment("A $ B".to_owned())));
-    let circle = ClCircle { center_mm: [0.0, 0.0, 6.0], normal: [0.0, 0.0, 1.0] };
+    let circle = ClCircle { center_mm: [0.0, 0.0, 6.0], normal: [0.0, 0.0, 1.0], turn_rad: None };
     assert!(has(Word::Circle(circle)));
 }
 
@@ -186,7 +186,7 @@ fn what_is_wrong_is_told_with_its_line() {
 }
 
 const WHOLE: &str = "PARTNO PLATE\nUNITS/MM\nLOADTL/1\nSPINDL/RPM,1000,CLW\nFEDRAT/100,MMPM\nTLAXIS/0,0,1\n\
-    GOTO/0,0,30\nCYCLE/DRILL,FEDTO,8,MMPM,200,RAPTO,3\nGOTO/0,30,-10\nGOTO/10,30, $\n -10\nCYCLE/OFF\n\
+    GOTO/0,0,30\nGOTO/0,1, $\n 30\nCYCLE/DRILL,FEDTO,8,MMPM,200,RAPTO,3\nGOTO/0,30,-10\nGOTO/10,30, $\n -10\nCYCLE/OFF\n\
     RAPID\nGOTO/0,0,30,0,0,1\nFINI\n";
 
 /// A file that was cut at any byte is never read without a word; where it may have lost more than FINI it is an error.
