@@ -78,14 +78,22 @@ fn what_a_cycle_does_not_say_is_not_guessed() {
         "CYCLE/DRILL,20,100,MMPM,3,4",
         "CYCLE/DRILL,20,100,MMPM,3,RAPTO,4",
         "CYCLE/DRILL,FEDTO,20,RAPTO,-3",
+        "CYCLE/DRILL,FEDTO,20,CLEAR,3,RETURN,-5",
+        "CYCLE/DRILL,FEDTO,20,CLEAR,3,RETURN,1",
+        "CYCLE/TAP,FEDTO,20,PITCH,1,CLEAR,3,RETURN,-5",
+        "CYCLE/TAP,FEDTO,20,PITCH,1,RAPTO,3,RTRCTO,-30",
+        "CYCLE/DRILL,FEDTO,20,RTRCTO,-30",
+        "CYCLE/TAP,FEDTO,0,PITCH,1,RAPTO,3",
     ] {
         refused(line, "bad-cycle");
     }
+    refused("CYCLE/TAP,FEDTO,20,PITCH,1", "no-clearance");
+    refused("CYCLE/DRILL,FEDTO,20,RTRCTO,30", "no-clearance");
     refused("CYCLE/DRILL,FEDTO,MMPM,100", "bad-number");
     refused("CYCLE/DRILL,FEDTO,20,MMPM,0", "bad-feed");
     refused("CYCLE/DRILL,FEDTO,20,DWELL,-2", "bad-delay");
     refused("CYCLE/THREAD,20,1", "motion-not-read");
-    for line in ["CYCLE/DRILL,FEDTO,20,MMPT,0.1,RAPTO,3", "CYCLE/BRKCHP,FEDTO,20,STEP,5"] {
+    for line in ["CYCLE/DRILL,FEDTO,20,MMPT,0.1,RAPTO,3", "CYCLE/BRKCHP,FEDTO,20,STEP,5,RAPTO,3"] {
         refused(line, "cycle-not-applied");
     }
 }

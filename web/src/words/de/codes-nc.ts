@@ -163,6 +163,7 @@ export const codes: Dictionary = {
   "tool-axis-kept": "Werkzeugachse des vorigen Punkts beibehalten",
   "unit-changes": "UNITS nach Punkten oder Vorschüben",
   "other-coordinate-system": "Anderes Koordinatensystem ab hier",
+  "no-clearance": "Zyklus ohne Sicherheitsabstand",
   "cut-file": "Datei abgeschnitten",
   "no-end": "Datei ohne FINI",
   "goes-on-after-end": "Punkte nach FINI oder END",

@@ -163,6 +163,7 @@ export const codes: Dictionary = {
   "tool-axis-kept": "沿用前一点的刀轴",
   "unit-changes": "UNITS 位于点或进给之后",
   "other-coordinate-system": "此处起坐标系改变",
+  "no-clearance": "循环缺少安全间隙",
   "cut-file": "文件被截断",
   "no-end": "文件缺少 FINI",
   "goes-on-after-end": "FINI 或 END 之后仍有点",
