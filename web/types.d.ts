@@ -1925,9 +1925,13 @@ export interface CompensateAdapt {
    */
   path: string;
   /**
-   * `good` or `not to be cut`.
+   * `good`, `not applied` (words of the path are not) or `not to be cut`.
    */
   verdict: string;
+  /**
+   * Words of the path that can change motion, spindle or coolant and are not applied; the exit status is then 1.
+   */
+  not_applied: number;
   /**
    * What speaks against the path.
    */
@@ -10874,9 +10878,13 @@ export interface AdaptDocument {
    */
   path: string;
   /**
-   * `good` or `not to be cut`.
+   * `good`, `not applied` (words of the path are not) or `not to be cut`.
    */
   verdict: string;
+  /**
+   * Words of the path that can change motion, spindle or coolant and are not applied; the exit status is then 1.
+   */
+  not_applied: number;
   /**
    * What speaks against the path.
    */

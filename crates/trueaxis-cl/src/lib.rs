@@ -57,6 +57,8 @@ pub struct ClCircle {
     pub center_mm: [f64; 3],
     /// Unit vector of the axis; the tool moves counter-clockwise about it. Unit: 1.
     pub normal: [f64; 3],
+    /// How far it moves, where the file states it, rad.
+    pub turn_rad: Option<f64>,
 }
 
 /// A drilling or tapping cycle; lengths along the tool axis from the point, mm.
@@ -111,6 +113,8 @@ pub enum Word {
     From(ClPoint),
     /// CIRCLE: the next GOTO is reached along it.
     Circle(ClCircle),
+    /// TLON,GOFWD: a circle with the point that it leads to.
+    Arc(ClCircle, ClPoint),
     /// RAPID: rapid traverse for the next motion.
     Rapid,
     /// FEDRAT.
@@ -125,8 +129,8 @@ pub enum Word {
     Cutter {
         /// Cutting diameter, mm.
         diameter_mm: f64,
-        /// Radius of the corner, mm.
-        corner_radius_mm: f64,
+        /// Radius of the corner, if it is stated, mm.
+        corner_radius_mm: Option<f64>,
     },
     /// TLAXIS: the tool axis of the following points without vector.
     ToolAxis([f64; 3]),
@@ -223,7 +227,7 @@ impl ClFile {
         &self.records
     }
 
-    /// All points of the path, each with its line.
+    /// All points of GOTO and GODLTA, and of tables, each with its line.
     pub fn points(&self) -> impl Iterator<Item = (u32, &ClPoint)> {
         self.records.iter().filter_map(|r| match &r.word {
             Word::Goto(point) => Some((r.line, point)),

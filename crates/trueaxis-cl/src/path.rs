@@ -88,6 +88,10 @@ impl ClPath {
     fn take(&mut self, line: u32, word: Word) {
         match word {
             Word::Goto(point) => self.push(line, &point),
+            Word::Arc(circle, point) => {
+                self.words.push((self.points, line, Word::Circle(circle)));
+                self.push(line, &point);
+            }
             Word::Circle(_)
             | Word::Spindle(..)
             | Word::Coolant(_)

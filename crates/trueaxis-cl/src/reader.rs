@@ -1,7 +1,9 @@
 //! From statements to records: units, modal words and diagnostics.
 
+mod along;
 mod circle;
 mod cycle;
+mod end;
 mod technology;
 mod transformation;
 
@@ -60,6 +62,7 @@ pub(super) fn read(
         let (line, span) = (statement.line, statement.span.clone());
         take(line, span, reader.word(&statement));
     }
+    reader.check_end(&scanner, source);
     reader.finish()
 }
 
@@ -97,6 +100,14 @@ struct Reader<'n> {
     cycle: Option<ClCycle>,
     /// The line of FINI or END.
     ended: Option<u32>,
+    /// Whether anything was a word of APT, and not a row of a table.
+    has_words: bool,
+    /// Whether the last statement ended one of several paths.
+    path_ended: bool,
+    /// Where the next circle begins to: INDIRV.
+    direction: Option<[f64; 3]>,
+    /// The line of the cycle that is on.
+    cycle_on: Option<u32>,
     /// Points whose vector is not of length 1: their number, the first line, the worst length.
     off: (usize, u32, f64),
 }
@@ -128,6 +139,10 @@ impl<'n> Reader<'n> {
             technology: technology::Technology::default(),
             cycle: None,
             ended: None,
+            has_words: false,
+            path_ended: false,
+            direction: None,
+            cycle_on: None,
             off: (0, 0, 1.0),
         }
     }
@@ -202,6 +217,7 @@ impl<'n> Reader<'n> {
     }
 
     fn word(&mut self, s: &Statement) -> Word {
+        self.path_ended &= s.word.is_empty() && s.text.trim().is_empty();
         if s.of_creo {
             return self.record_of_creo(s);
         }
@@ -269,6 +285,7 @@ impl<'n> Reader<'n> {
     }
 
     fn known(&mut self, major: Major, s: &Statement) -> Result<Word, Fault> {
+        self.has_words = true;
         Ok(match major {
             Major::Goto => Word::Goto(self.point(s)?),
             Major::GoDelta => Word::Goto(self.delta(s)?),
@@ -279,6 +296,11 @@ impl<'n> Reader<'n> {
                 Word::From(point)
             }
             Major::Circle => Word::Circle(self.circle(s)?),
+            Major::Direction => {
+                self.direction = Some(self.numbers::<3>(s, 0)?);
+                Word::Noted
+            }
+            Major::Along => self.along(s)?,
             Major::Rapid if s.argument(0).eq_ignore_ascii_case("OFF") => {
                 self.rapid = false;
                 Word::Noted
@@ -300,8 +322,8 @@ impl<'n> Reader<'n> {
             Major::Cutter => Word::Cutter {
                 diameter_mm: number(s.argument(0))? * self.unit_mm,
                 corner_radius_mm: match s.argument(1) {
-                    "" => 0.0,
-                    text => number(text)? * self.unit_mm,
+                    "" => None,
+                    text => Some(number(text)? * self.unit_mm),
                 },
             },
             Major::ToolAxis => self.tool_axis(s)?,
@@ -325,12 +347,16 @@ impl<'n> Reader<'n> {
             }
             Major::Comment => Word::Comment(s.rest().to_owned()),
             // END-OF-PATH of NX ends one of several.
-            Major::End if s.text.trim_start()[s.word.len()..].starts_with('-') => Word::Noted,
+            Major::End if s.text.trim_start()[s.word.len()..].starts_with('-') => {
+                self.path_ended = true;
+                Word::Noted
+            }
             Major::End => {
                 self.ended = Some(s.line);
                 Word::End
             }
             Major::Synonym => self.synonym(s),
+            Major::Noted if s.word.starts_with("TL") && s.count() > 0 => self.along(s)?,
             Major::Noted | Major::Load => Word::Noted,
             Major::NotApplied(what) => self.not_applied(what, s),
             Major::Translation => self.translate(s)?,
@@ -386,7 +412,7 @@ impl<'n> Reader<'n> {
     ) -> Result<ClPoint, Fault> {
         let axis = self.axis_of_point(own, s)?;
         self.warn_after_end(s.line);
-        self.tip_mm = Some(tip_mm);
+        (self.tip_mm, self.direction) = (Some(tip_mm), None);
         let rapid = std::mem::take(&mut self.rapid);
         Ok(ClPoint { tip_mm, axis, rapid, feed: self.feed })
     }
@@ -409,9 +435,10 @@ impl<'n> Reader<'n> {
         }
         self.note_norm(norm, line);
         self.warn_after_end(line);
+        (self.has_words, self.path_ended) = (true, false);
         self.points += 1;
         let axis = vector.map(|v| v / norm);
-        (self.tip_mm, self.axis) = (Some(tip_mm), Some(axis));
+        (self.tip_mm, self.axis, self.direction) = (Some(tip_mm), Some(axis), None);
         let rapid = std::mem::take(&mut self.rapid);
         Some(ClPoint { tip_mm, axis, rapid, feed: self.feed })
     }

@@ -52,12 +52,14 @@ pub(super) struct Scanner<'s> {
     source: &'s [u8],
     at: usize,
     line: u32,
+    /// Whether the file ended where a statement goes on.
+    is_cut: bool,
 }
 
 impl<'s> Scanner<'s> {
     pub fn new(source: &'s [u8]) -> Self {
         let bom = source.starts_with(b"\xEF\xBB\xBF");
-        Self { source, at: if bom { 3 } else { 0 }, line: 1 }
+        Self { source, at: if bom { 3 } else { 0 }, line: 1, is_cut: false }
     }
 
     /// Where the next statement begins, or blank lines before it.
@@ -68,6 +70,16 @@ impl<'s> Scanner<'s> {
     /// The number of the line there.
     pub fn line(&self) -> u32 {
         self.line
+    }
+
+    /// The number of the line before, where the file ends.
+    pub fn last_line(&self) -> u32 {
+        self.line.saturating_sub(1).max(1)
+    }
+
+    /// Whether the file ended where a statement goes on in the next line.
+    pub fn is_cut(&self) -> bool {
+        self.is_cut
     }
 
     /// Leaves out the line that ends where another one begins.
@@ -121,7 +133,10 @@ impl<'s> Scanner<'s> {
         }
         let mut goes_on = take_line(text, into);
         while goes_on {
-            let Some(line) = self.next_line() else { break };
+            let Some(line) = self.next_line() else {
+                self.is_cut = true;
+                break;
+            };
             into.span.end = line.end;
             goes_on = take_line(&String::from_utf8_lossy(&self.source[line]), into);
         }

@@ -7,6 +7,10 @@ pub(super) enum Major {
     GoDelta,
     From,
     Circle,
+    /// INDIRV: where the next circle begins to.
+    Direction,
+    /// A motion along a circle up to a line.
+    Along,
     Rapid,
     Feed,
     Spindle,
@@ -84,8 +88,11 @@ pub(super) fn major(word: &str) -> Option<Major> {
         "CLAMP" | "LOCKX" => Major::Replaced("a clamp"),
         "AIR" => Major::NotApplied("air"),
         "DNTCUT" | "NOPOST" => Major::NotApplied("a part of the file that is left out"),
-        "GOFWD" | "GOLFT" | "GORGT" | "GOBACK" | "GOUP" | "GODOWN" | "GO" | "TLON" | "INDIRV"
-        | "INDIRP" => Major::Motion("motion along surfaces"),
+        "INDIRV" => Major::Direction,
+        "TLON" | "GOFWD" => Major::Along,
+        "GOLFT" | "GORGT" | "GOBACK" | "GOUP" | "GODOWN" | "GO" | "INDIRP" => {
+            Major::Motion("motion along surfaces")
+        }
         "NURBS" | "SPLINE" | "ARC" | "PARAB" | "HELIX" => Major::Motion("a curve"),
         _ if NOTED.contains(&word) || word.starts_with("CSI_") => Major::Noted,
         _ => return None,
@@ -93,10 +100,10 @@ pub(super) fn major(word: &str) -> Option<Major> {
 }
 
 /// Words of the language, and of the systems that write it, without effect on the path.
-const NOTED: [&str; 48] = [
-    "PPWORD", "CAMERA", "CSYS", "TRNTYP", "MACHIN", "SWITCH", "PPFUN", "REWIND", "INTOL", "OUTTOL",
-    "TOLER", "LINTOL", "CLDIST", "MODE", "HEAD", "HED", "SEQNO", "CLRSRF", "CLEARP", "CLPRNT",
-    "PLOT", "PLABEL", "TLLFT", "TLRGT", "PSIS", "CUT", "OFSTNO", "FEATNO", "MFGNO", "PROCES",
-    "SET", "CHIPS", "BREAK", "LEADER", "RESERV", "TMARK", "ARCSLP", "TPFORM", "LPRINT", "TITLES",
-    "SAFETY", "TOOLPATH", "PAINT", "STCK", "STOCK", "COMENT", "TLDATA", "TOOL",
+const NOTED: [&str; 49] = [
+    "AUTOPS", "PPWORD", "CAMERA", "CSYS", "TRNTYP", "MACHIN", "SWITCH", "PPFUN", "REWIND", "INTOL",
+    "OUTTOL", "TOLER", "LINTOL", "CLDIST", "MODE", "HEAD", "HED", "SEQNO", "CLRSRF", "CLEARP",
+    "CLPRNT", "PLOT", "PLABEL", "TLLFT", "TLRGT", "PSIS", "CUT", "OFSTNO", "FEATNO", "MFGNO",
+    "PROCES", "SET", "CHIPS", "BREAK", "LEADER", "RESERV", "TMARK", "ARCSLP", "TPFORM", "LPRINT",
+    "TITLES", "SAFETY", "TOOLPATH", "PAINT", "STCK", "STOCK", "COMENT", "TLDATA", "TOOL",
 ];

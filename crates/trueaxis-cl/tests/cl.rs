@@ -71,6 +71,8 @@ fn oracle_cutter_locations_of_others_are_read() {
             Some("DEMO2.txt") => &["bad-cycle"],
             // ROTABL: a table turns between the points.
             Some("DEMO3.txt") => &["motion-not-read"],
+            // The last line has no end, and there is no FINI: a cut file would look the same.
+            Some("pathdata2.txt") => &["cut-file"],
             _ => &[],
         };
         assert!(errors.eq(wanted.iter().copied()), "{problems:?}");
@@ -117,10 +119,10 @@ fn a_file_by_hand() {
             && has(Word::Delay(2.0))
             && has(Word::End)
     );
-    assert!(has(Word::Cutter { diameter_mm: 10.0, corner_radius_mm: 2.0 }));
+    assert!(has(Word::Cutter { diameter_mm: 10.0, corner_radius_mm: Some(2.0) }));
     assert!(has(Word::Spindle(SpindleDirection::CounterClockwise, Some(1000.0))));
     assert!(has(Word::Comment("A $ B".to_owned())));
-    let circle = ClCircle { center_mm: [0.0, 0.0, 6.0], normal: [0.0, 0.0, 1.0] };
+    let circle = ClCircle { center_mm: [0.0, 0.0, 6.0], normal: [0.0, 0.0, 1.0], turn_rad: None };
     assert!(has(Word::Circle(circle)));
 }
 
@@ -157,7 +159,7 @@ fn tables_and_inches() {
 
 #[test]
 fn what_is_wrong_is_told_with_its_line() {
-    let reported = |text: &str| read(text).1;
+    let reported = |text: &str| read(&format!("{text}FINI\n")).1;
     assert_eq!(
         reported("UNITS/MM\nMULTAX/ON\nGOTO/1,2,3\n"),
         [(3, "no-tool-axis"), (3, "no-tool-axis")]
@@ -181,6 +183,40 @@ fn what_is_wrong_is_told_with_its_line() {
     assert_eq!(reported("UNITS/MM\n"), [(0, "no-points")]);
     let endless = "GOTO/x\n".repeat(10_000);
     assert!(reported(&endless).len() < 110);
+}
+
+const WHOLE: &str = "PARTNO PLATE\nUNITS/MM\nLOADTL/1\nSPINDL/RPM,1000,CLW\nFEDRAT/100,MMPM\nTLAXIS/0,0,1\n\
+    GOTO/0,0,30\nGOTO/0,1, $\n 30\nCYCLE/DRILL,FEDTO,8,MMPM,200,RAPTO,3\nGOTO/0,30,-10\nGOTO/10,30, $\n -10\nCYCLE/OFF\n\
+    RAPID\nGOTO/0,0,30,0,0,1\nFINI\n";
+
+/// A file that was cut at any byte is never read without a word; where it may have lost more than FINI it is an error.
+#[test]
+fn law_a_file_that_was_cut_is_not_read_in_silence() {
+    assert_eq!(read(WHOLE).1, []);
+    assert_eq!(read(WHOLE.trim_end()).1, []);
+    for length in 0..WHOLE.len() - 5 {
+        let text = &WHOLE[..length];
+        let found = read(text).1;
+        let ends_line = text.is_empty() || text.ends_with('\n');
+        let whole = text.lines().next_back().is_none_or(|line| !line.ends_with('$'));
+        let drills =
+            text.contains("CYCLE/DRILL,FEDTO,8,MMPM,200,RAPTO,3\n") && !text.contains("CYCLE/OFF");
+        let line = text.lines().count().max(1);
+        let wanted = if ends_line && whole && !drills { "no-end" } else { "cut-file" };
+        let has_points = text.contains("GOTO/0,0,30");
+        assert!(!has_points || found.contains(&(line, wanted)), "{text:?} {found:?}");
+        let (other, said) = if wanted == "no-end" { ("cut-file", 1) } else { ("no-end", 1) };
+        let count = found.iter().filter(|(_, code)| [wanted, other].contains(code)).count();
+        assert!(
+            count <= said && found.iter().all(|(_, code)| *code != other),
+            "{text:?} {found:?}"
+        );
+    }
+    // A part of an NX file ends with its path; a table has no word for its end.
+    assert_eq!(read("UNITS/MM\nMULTAX/ON\nGOTO/0,0,1,0,0,1\nEND-OF-PATH\n").1, []);
+    let again = "UNITS/MM\nMULTAX/ON\nGOTO/0,0,1,0,0,1\nEND-OF-PATH\nGOTO/0,0,2,0,0,1\n";
+    assert_eq!(read(again).1, [(5, "no-end")]);
+    assert_eq!(read("1 2 3 0 0 1\n4 5 6 0 0 1").1, [(0, "no-units")]);
 }
 
 proptest! {

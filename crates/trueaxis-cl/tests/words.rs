@@ -6,8 +6,10 @@ use trueaxis_nc::moves::{Coolant, Feed, FeedMode, SpindleDirection};
 
 const HEAD: &str = "UNITS/MM\nSPINDL/RPM,1200,CLW\nFEDRAT/500,MMPM\nGOTO/0,0,30,0,0,1\n";
 
+/// A file that ends as it should.
 fn read(text: &str) -> (Vec<Word>, Vec<(usize, &'static str)>) {
-    let (file, problems) = ClFile::read("a.cls", text.as_bytes().to_vec(), &Reading::default());
+    let text = format!("{}\nFINI\n", text.trim_end()).into_bytes();
+    let (file, problems) = ClFile::read("a.cls", text, &Reading::default());
     let found = problems.iter().map(|p| (p.place.line, p.code)).collect();
     (file.records().iter().map(|r| r.word.clone()).collect(), found)
 }
@@ -76,14 +78,22 @@ fn what_a_cycle_does_not_say_is_not_guessed() {
         "CYCLE/DRILL,20,100,MMPM,3,4",
         "CYCLE/DRILL,20,100,MMPM,3,RAPTO,4",
         "CYCLE/DRILL,FEDTO,20,RAPTO,-3",
+        "CYCLE/DRILL,FEDTO,20,CLEAR,3,RETURN,-5",
+        "CYCLE/DRILL,FEDTO,20,CLEAR,3,RETURN,1",
+        "CYCLE/TAP,FEDTO,20,PITCH,1,CLEAR,3,RETURN,-5",
+        "CYCLE/TAP,FEDTO,20,PITCH,1,RAPTO,3,RTRCTO,-30",
+        "CYCLE/DRILL,FEDTO,20,RTRCTO,-30",
+        "CYCLE/TAP,FEDTO,0,PITCH,1,RAPTO,3",
     ] {
         refused(line, "bad-cycle");
     }
+    refused("CYCLE/TAP,FEDTO,20,PITCH,1", "no-clearance");
+    refused("CYCLE/DRILL,FEDTO,20,RTRCTO,30", "no-clearance");
     refused("CYCLE/DRILL,FEDTO,MMPM,100", "bad-number");
     refused("CYCLE/DRILL,FEDTO,20,MMPM,0", "bad-feed");
     refused("CYCLE/DRILL,FEDTO,20,DWELL,-2", "bad-delay");
     refused("CYCLE/THREAD,20,1", "motion-not-read");
-    for line in ["CYCLE/DRILL,FEDTO,20,MMPT,0.1,RAPTO,3", "CYCLE/BRKCHP,FEDTO,20,STEP,5"] {
+    for line in ["CYCLE/DRILL,FEDTO,20,MMPT,0.1,RAPTO,3", "CYCLE/BRKCHP,FEDTO,20,STEP,5,RAPTO,3"] {
         refused(line, "cycle-not-applied");
     }
 }
@@ -232,7 +242,8 @@ fn coolant_and_tools_are_those_of_the_file() {
 #[test]
 fn law_a_tool_axis_holds_until_another_one() {
     let axes = |text: &str| -> (Vec<[f64; 3]>, Vec<(usize, &'static str)>) {
-        let (file, problems) = ClFile::read("a", text.as_bytes().to_vec(), &Reading::default());
+        let text = format!("{text}FINI\n").into_bytes();
+        let (file, problems) = ClFile::read("a", text, &Reading::default());
         let found = problems.iter().map(|p| (p.place.line, p.code)).collect();
         (file.points().map(|(_, p)| p.axis).collect(), found)
     };
@@ -309,7 +320,7 @@ fn words_that_move_the_points_are_applied_or_refused() {
     }
     refused("TRANS/1e9,0,0", "too-far");
     let severities = |line: &str| -> Vec<Severity> {
-        let text = format!("{HEAD}{line}\n").into_bytes();
+        let text = format!("{HEAD}{line}\nFINI\n").into_bytes();
         let (_, problems) = ClFile::read("a", text, &Reading::default());
         problems.iter().map(|p| p.severity).collect()
     };
@@ -325,7 +336,7 @@ fn words_that_move_the_points_are_applied_or_refused() {
 #[test]
 fn trans_displaces_points_and_circles() {
     let text = "UNITS/INCHES\nFEDRAT/9\nGOTO/1,0,0,0,0,1\nTRANS/1,2,3\nGOTO/1,0,0,0,0,1\n\
-                CIRCLE/0,0,0,0,0,1,1\nGOTO/0,1,0\nGODLTA/0,0,1\nTRANS/OFF\nGOTO/1,0,0,0,0,1\n";
+                CIRCLE/0,0,0,0,0,1,1\nGOTO/0,1,0\nGODLTA/0,0,1\nTRANS/OFF\nGOTO/1,0,0,0,0,1\nFINI\n";
     let (file, problems) = ClFile::read("a", text.as_bytes().to_vec(), &Reading::default());
     assert!(problems.iter().next().is_none(), "{problems:?}");
     let inches = |p: [f64; 3]| p.map(|v| (v / 25.4 * 1e9).round() / 1e9);
@@ -344,4 +355,106 @@ fn trans_displaces_points_and_circles() {
     assert_eq!(said("TRANS/1,0,0\nTRANS/2,0,0\n"), [(6, "motion-not-read")]);
     assert_eq!(said("TRANS/1,0,0\nTRANS/0,0,0\nTRANS/2,0,0\nGOTO/1,1,1\n"), []);
     assert_eq!(said("TRANS/1,0,0\nGODLTA/1\n"), [(6, "no-place")]);
+}
+
+/// CATIA and Creo: a quarter counter-clockwise and one clockwise, three quarters to the second place, and a full turn.
+#[test]
+fn law_circles_up_to_a_line_end_where_it_says() {
+    let arc = |direction: &str, circle: &str, rest: &str| {
+        let text = format!(
+            "UNITS/MM\nFEDRAT/500\nGOTO/10,0,5,0,0,1\nAUTOPS\nINDIRV/{direction}\nTLON,GOFWD/ (CIRCLE/ {circle},$\n 10.),ON,{rest}\n"
+        );
+        let (words, found) = read(&text);
+        let codes: Vec<_> = found.into_iter().map(|(_, code)| code).collect();
+        match &words[5] {
+            Word::Arc(circle, point) => {
+                let turn = circle.turn_rad.expect("a turn").to_degrees();
+                assert_eq!(circle.center_mm, [0.0, 0.0, 5.0]);
+                Ok((circle.normal[2], (turn * 1e3).round() / 1e3, point.tip_mm))
+            }
+            _ => Err(codes),
+        }
+    };
+    let to = |x: &str| format!("(LINE/ 0,0,5,$\n {x})");
+    let second = |x: &str| format!("2,INTOF,$\n{}", to(x));
+    let (left, right, centre) = ("0.0,1.0,0.0", "0,-1,0", "0.,0.,5.");
+    assert_eq!(arc(left, centre, &to("0,10,5")), Ok((1.0, 90.0, [0.0, 10.0, 5.0])));
+    assert_eq!(arc(right, centre, &to("0,-10,5")), Ok((-1.0, 90.0, [0.0, -10.0, 5.0])));
+    assert_eq!(arc(left, centre, &to("-10,0,5")), Ok((1.0, 180.0, [-10.0, 0.0, 5.0])));
+    assert_eq!(arc(left, centre, &second("0,-10,5")), Ok((1.0, 270.0, [0.0, -10.0, 5.0])));
+    assert_eq!(arc(left, centre, &second("10,0,5")), Ok((1.0, 360.0, [10.0, 0.0, 5.0])));
+    for (direction, circle, rest) in [
+        // Neither a tangent, nor one in the plane.
+        ("1,0,0", centre, to("0,10,5")),
+        ("0,1,0.1", centre, to("0,10,5")),
+        ("0,0,0", centre, to("0,10,5")),
+        // The line is reached before, is reached but once, or not at all.
+        (left, centre, to("0,-10,5")),
+        (left, centre, to("10,0,5")),
+        (left, centre, second("0,10,5")),
+        (left, centre, to("0,9.9,5")),
+        (left, "0,0.2,5", to("0,10,5")),
+        // A helix, another plane, a line from elsewhere.
+        (left, centre, to("0,10,4")),
+        (left, "0,0,4", to("0,10,5")),
+        (left, centre, "(LINE/0,1,5,0,10,5)".to_owned()),
+        (left, centre, "(LINE/0,0,5,0,10)".to_owned()),
+    ] {
+        assert_eq!(
+            arc(direction, circle, &rest),
+            Err(vec!["bad-circle"]),
+            "{direction} {circle} {rest}"
+        );
+    }
+    for other in ["(PLANE/1,0,0,0)", "(LINE/CANON,1,0,0,0)"] {
+        assert_eq!(arc(left, centre, other), Err(vec!["motion-not-read"]), "{other}");
+    }
+    let goes_on = format!(
+        "{HEAD}CYCLE/DRILL,FEDTO,5,MMPM,50,RAPTO,3\nINDIRV/0,1,0\nTLON,GOFWD/(CIRCLE/-10,0,30,10),ON,(LINE/-10,0,30,-10,10,30)\nCYCLE/OFF\n"
+    );
+    assert_eq!(read(&goes_on).1, [(7, "bad-circle")]);
+    let none = format!("{HEAD}TLON,GOFWD/(CIRCLE/-10,0,30,10),ON,(LINE/-10,0,30,-10,10,30)\n");
+    assert_eq!(read(&none).1, [(5, "bad-circle")]);
+    for line in ["TLON,GOFWD/(CYLNDR/0,0,0,0,1,0,5),ON,(PLANE/1,0,0,0)", "TLLFT,GOLFT/L1", "TLON"] {
+        refused(line, "motion-not-read");
+    }
+}
+
+/// ANGLE of Autodesk is how far the tool goes, counter-clockwise about the normal.
+#[test]
+fn law_an_angle_of_a_circle_is_that_to_its_point() {
+    let circle = |line: &str| match word(line) {
+        (Word::Circle(circle), found) if found.is_empty() => circle,
+        other => panic!("{line} {other:?}"),
+    };
+    let from = [10.0, 0.0, 0.0];
+    let on = |degrees: f64| {
+        let (sine, cosine) = degrees.to_radians().sin_cos();
+        [10.0 * cosine, 10.0 * sine, -2.0]
+    };
+    for (stated, is) in [
+        (90.0, 90.0),
+        (90.0, 90.04),
+        (270.0, 270.0),
+        (360.0, 0.0),
+        (360.0, -1e-3),
+        (450.0, 90.0),
+        (720.0, 0.0),
+    ] {
+        let line = format!("MOVARC/0, 0, 30, 0, 0, 1, 0, ANGLE, {stated}");
+        let turn = circle(&line).turn_rad(&from, &on(is)).expect("the same");
+        let wanted = is + 360.0 * f64::round((stated - is) / 360.0);
+        assert!((turn.to_degrees() - wanted).abs() < 1e-9, "{stated} {is} {turn}");
+    }
+    for (stated, is) in [(90.0, 270.0), (90.0, 92.0), (270.0, 90.0), (360.0, 180.0), (1.0, 0.0)] {
+        let line = format!("MOVARC/0,0,30,0,0,1,0,ANGLE,{stated}");
+        assert!(circle(&line).turn_rad(&from, &on(is)).is_err(), "{stated} {is}");
+    }
+    for line in [
+        "MOVARC/0,0,30,0,0,1,0,ANGLE,-90",
+        "MOVARC/0,0,30,0,0,1,0,ANGLE,0",
+        "MOVARC/0,0,30,0,0,1,0,TURNS,2",
+    ] {
+        refused(line, "bad-circle");
+    }
 }

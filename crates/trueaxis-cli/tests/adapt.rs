@@ -258,11 +258,48 @@ fn paths_with_slips() {
     let whole = parts();
     let cut = Parts { path: whole.path[..whole.path.len() - 50].to_owned(), ..whole.clone() };
     reported("cut", &cut, 2, "bad-number", "bangle-adapt.cls:200");
+    reported("cut-file", &cut, 2, "cut-file", "bangle-adapt.cls:200");
     reported("no-end", &whole.clone().with_path("FINI\n", ""), 0, "no-end", "FINI");
     let circle = "MULTAX/ON\nCIRCLE/0,0,0,0,0,1,5";
     reported("circle", &whole.clone().with_path("MULTAX/ON", circle), 2, "curve", ":7:");
     let none = whole.with_study("bangle-adapt.cls", "nowhere.cls");
     reported("missing", &none, 2, "unreadable-file", "nowhere.cls");
+}
+
+/// As `post`: what can change motion, spindle or coolant and is not applied is part of the verdict.
+#[test]
+fn words_that_are_not_applied_are_no_good_path() {
+    let folder = Folder::new("adapt-not-applied-out");
+    for (k, word) in ["CUTCOM/LEFT", "INSERT G68 R30", "FOO/1"].into_iter().enumerate() {
+        let parts = parts().with_path("MULTAX/ON", &format!("MULTAX/ON\n{word}"));
+        let cl = folder.path(&format!("{k}.cls"));
+        let name = format!("not-applied-{k}");
+        let (_folder, ran) = parts.run(&name, &["--cl", &cl, "--format", "json"]);
+        assert_eq!(ran.status, 1, "{word}\n{}", ran.err);
+        let found = ran.json();
+        assert_eq!(
+            (found["verdict"].as_str(), found["not_applied"].as_u64()),
+            (Some("not applied"), Some(1))
+        );
+        assert!(std::fs::read_to_string(&cl).expect("the path").contains(word));
+        if k == 0 {
+            let (_folder, ran) = parts.run("not-applied-text", &[]);
+            let said = ["NOT APPLIED", "1 word of the path is not applied, listed above"];
+            assert!(said.iter().all(|text| ran.out.contains(text)), "{}", ran.out);
+        }
+    }
+}
+
+#[test]
+fn a_path_for_another_cutter_is_named() {
+    let parts = || parts().with_path("CUTTER/8.,4.", "CUTTER/10.,4.");
+    reported("other-diameter", &parts(), 0, "other-cutter", "bangle-adapt.cls:5:");
+    let corner = parts().with_path("CUTTER/10.,4.", "CUTTER/8.,1.");
+    reported("other-corner", &corner, 0, "other-cutter", "a cutter of 8 mm with a corner of 1 mm");
+    for same in ["CUTTER/8.", "CUTTER/8.,4.,0.,4.,0.,0.,50."] {
+        let (_folder, ran) = parts().with_path("CUTTER/10.,4.", same).run("same-cutter", &[]);
+        assert!(!ran.err.contains("other-cutter"), "{same}\n{}", ran.err);
+    }
 }
 
 #[test]

@@ -6,6 +6,8 @@ use command::{Folder, trueaxis};
 
 const ENGRAVER: &str = "machines/i5-engraver/machine.toml";
 const BANGLE: &str = "examples/06_compensate/bangle.cls";
+const MILL: &str = "machines/three-axis-mill/machine.toml";
+const PLATE: &str = "examples/06_compensate/plate.cls";
 
 #[test]
 fn the_document_has_the_agreed_keys() {
@@ -101,7 +103,8 @@ fn words_that_are_not_applied_are_in_the_verdict() {
     let folder = Folder::new("post-not-applied");
     let out = folder.path("a.nc");
     let post = |words: &str, more: &[&str]| {
-        let text = format!("UNITS/MM\nLOADTL/1\nFEDRAT/500\n{words}GOTO/0,0,9,0,0,1\nGOTO/9,0,9\n");
+        let text =
+            format!("UNITS/MM\nLOADTL/1\nFEDRAT/500\n{words}GOTO/0,0,9,0,0,1\nGOTO/9,0,9\nFINI\n");
         let file = folder.file("a.cls", text);
         let _ = std::fs::remove_file(&out);
         let arguments = ["post", ENGRAVER, &file, "--control", "fanuc", "-o", &out];
@@ -283,4 +286,27 @@ fn mistakes_in_a_test_piece_are_named() {
         assert!(ran.err.contains(&format!("[{code}]")), "{to}: {}", ran.err);
         assert!(!std::path::Path::new(&out).exists());
     }
+}
+
+/// The first 754 bytes of the example end in `GOTO/0,30,-1`, where the file has `-10`: the hole would be 9 mm too high.
+#[test]
+fn a_file_that_was_cut_becomes_no_program() {
+    let folder = Folder::new("post-cut");
+    let whole = std::fs::read_to_string(command::root().join(PLATE)).expect("the example");
+    let at = whole.find("GOTO/0,30,-10").expect("the hole") + "GOTO/0,30,-1".len();
+    let ran = |text: &str| {
+        let (file, out) = (folder.file("cut.cls", text), folder.path("cut.nc"));
+        let all =
+            ["post", MILL, &file, "--control", "fanuc", "--tcp", "length", "-o", &out, "--verify"];
+        trueaxis(&all)
+    };
+    let cut = ran(&whole[..at]);
+    assert_eq!((cut.status, cut.out.as_str()), (2, ""), "{}", cut.err);
+    assert!(cut.err.contains("error[cut-file]: the file ends here within a line"), "{}", cut.err);
+    assert_eq!(folder.names(), ["cut.cls"]);
+    let open = ran(&format!("{}0\n", &whole[..at]));
+    assert!(open.err.contains("is still on") && open.status == 2, "{}", open.err);
+    let without_end = ran(whole.trim_end().strip_suffix("FINI").expect("FINI"));
+    assert!(without_end.err.contains("warning[no-end]"), "{}", without_end.err);
+    assert_eq!(without_end.status, 0);
 }

@@ -123,6 +123,10 @@ impl Post<'_> {
         // A file rounds its ends: the centre moves along the chord to where both radii are the same. An arc whose
         // ends become one place would be a whole circle.
         let whole = chord < 0.1 * increment && angle_rad > std::f64::consts::PI;
+        // No block has more than one turn.
+        if angle_rad > std::f64::consts::TAU && !whole || angle_rad > 1.5 * std::f64::consts::TAU {
+            return None;
+        }
         let shift = if whole { 0.0 } else { (radii[1].powi(2) - radii[0].powi(2)) / (2.0 * chord) };
         if !whole && (chord < 10.0 * increment || shift.abs() > 0.25 * self.options.tolerance_mm) {
             return None;

@@ -311,10 +311,19 @@ impl Builder<'_> {
     }
 
     fn off_circle(&mut self, circle: &ClCircle, [from, to]: [&Stand; 2], line: u32) {
-        let [from, to] = [from, to].map(|stand| circle.radius_mm(&stand.tip.into()));
-        let message = format!(
-            "the circle does not lead here: its axis is {from:.4} mm from the point before and {to:.4} mm from this one"
-        );
+        let [from_mm, to_mm] = [from, to].map(|stand| stand.tip.into());
+        let message = match (circle.turn_rad, circle.turn_rad(&from_mm, &to_mm)) {
+            (Some(stated), Err(is)) if circle.leads(&from_mm, &to_mm) => format!(
+                "ANGLE of the circle is {:.4} deg, and counter-clockwise about its normal it is {:.4} deg to this point",
+                stated.to_degrees(),
+                is.to_degrees()
+            ),
+            _ => format!(
+                "the circle does not lead here: its axis is {:.4} mm from the point before and {:.4} mm from this one",
+                circle.radius_mm(&from_mm),
+                circle.radius_mm(&to_mm)
+            ),
+        };
         let hint = "check CIRCLE and the points before and after it";
         self.problems.error("bad-circle", self.place(line), message, hint);
     }
@@ -424,17 +433,9 @@ fn arc(circle: &ClCircle, from: &Stand, to: &Stand) -> Option<Way> {
         let arm = p - center;
         arm - normal * normal.dot(&arm)
     };
-    let (a, b) = (flat(from.tip), flat(to.tip));
-    if a.norm() < 1e-6 || !circle.leads(&from.tip.into(), &to.tip.into()) {
+    if flat(from.tip).norm() < 1e-6 || !circle.leads(&from.tip.into(), &to.tip.into()) {
         return None;
     }
-    let shortest = normal.dot(&a.cross(&b)).atan2(a.dot(&b));
-    let full = std::f64::consts::TAU;
-    // From the start to the start is a whole circle.
-    let angle_rad = match (b - a).norm() <= SAME_MM {
-        true => full,
-        false if shortest <= 0.0 => shortest + full,
-        false => shortest,
-    };
+    let angle_rad = circle.turn_rad(&from.tip.into(), &to.tip.into()).ok()?;
     Some(Way::Arc { center, normal, angle_rad })
 }

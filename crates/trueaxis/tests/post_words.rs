@@ -224,6 +224,42 @@ fn a_circle_that_does_not_lead_to_its_point_is_refused() {
     assert_eq!(proved(&text("100.004"), &options(Fanuc)).0.arcs, 1);
 }
 
+/// Circles of CATIA (TLON,GOFWD) and of Autodesk (ANGLE) are the arcs of `CIRCLE` and GOTO: the same programs, and proved.
+#[test]
+fn law_circles_are_the_same_in_every_notation() {
+    let text = |arcs: &str| {
+        format!("UNITS/MM\nLOADTL/1\nFEDRAT/500\nGOTO/10,0,5,0,0,1\n{arcs}GOTO/20,20,5\nFINI\n")
+    };
+    let usual = text(
+        "CIRCLE/0,0,5,0,0,1,10\nGOTO/0,10,5\nCIRCLE/0,20,5,0,0,-1,10\nGOTO/10,20,5\n\
+         CIRCLE/0,20,5,0,0,-1,10\nGOTO/10,20,5\n",
+    );
+    let of_catia = text(
+        "AUTOPS\nINDIRV/0,1,0\nTLON,GOFWD/ (CIRCLE/ 0,0,5,$\n10),ON,(LINE/ 0,0,5,$\n0,10,5)\n\
+         AUTOPS\nINDIRV/-1,0,0\nTLON,GOFWD/(CIRCLE/0,20,5,10),ON,2,INTOF,(LINE/0,20,5,10,20,5)\n\
+         AUTOPS\nINDIRV/0,-1,0\nTLON,GOFWD/(CIRCLE/0,20,5,10),ON,2,INTOF,(LINE/0,20,5,10,20,5)\n",
+    );
+    let of_autodesk = text(
+        "MOVARC/0, 0, 5, 0, 0, 1, 10, ANGLE, 90.\nGOTO/0,10,5\nMOVARC/0,20,5,0,0,-1,10,ANGLE,270\nGOTO/10,20,5\n\
+         MOVARC/0,20,5,0,0,-1,10,ANGLE,360\nGOTO/10,20,5\n",
+    );
+    for control in CONTROLS {
+        let (posted, program) = proved(&usual, &options(control));
+        assert_eq!(posted.arcs, 3, "{control:?}");
+        for other in [&of_catia, &of_autodesk] {
+            assert_eq!(proved(other, &options(control)).1, program, "{control:?}");
+        }
+    }
+    // Two turns and a quarter down a helix: no block has more than one, so they are lines.
+    let helix = text("MOVARC/0,0,5,0,0,1,10,ANGLE,810\nGOTO/0,10,2\n");
+    let (posted, _) = proved(&helix, &options(Sinumerik840d));
+    assert!(posted.arcs == 0 && posted.blocks > 100, "{} {}", posted.arcs, posted.blocks);
+    let wrong = text("MOVARC/0,0,5,0,0,-1,10,ANGLE,90\nGOTO/0,10,5\n");
+    let (posted, problems) = post(&machine("three-axis-mill"), &cl(&wrong), &options(Fanuc));
+    let said = problems.iter().find(|p| p.code == "bad-circle").map(|p| p.message.clone());
+    assert!(posted.is_none() && said.is_some_and(|s| s.contains("270.0000 deg")), "{problems:?}");
+}
+
 /// A feed per revolution needs the speed that turns, not the one before a surface speed.
 #[test]
 fn a_surface_speed_leaves_no_feed_per_revolution() {

@@ -10,6 +10,9 @@ use trueaxis_nc::moves::{Feed, FeedMode};
 /// Pecks of one hole: more than any file means.
 const MOST_PECKS: f64 = 1e5;
 
+/// Heights of a cycle that differ by less are the same, mm.
+const SAME_MM: f64 = 1e-6;
+
 const HINT: &str = "write CYCLE/DRILL,FEDTO,10,MMPM,200,RAPTO,2";
 
 const TAP_HINT: &str = "write CYCLE/TAP,FEDTO,10,MMPR,1.25,RAPTO,3";
@@ -49,6 +52,16 @@ impl Reader<'_> {
     /// zero), DEPTH … CLEAR … RETURN (CATIA), or depth, feed, unit, clearance without words. CYCLE/DEEP or DEEP with
     /// 1STPECK and SUBPECK, or STEP, pecks.
     pub(super) fn cycle(&mut self, s: &Statement) -> Result<Word, Fault> {
+        let word = self.cycle_or_off(s)?;
+        match word {
+            Word::Cycle(_) => self.cycle_on = self.cycle_on.or(Some(s.line)),
+            Word::CycleOff => self.cycle_on = None,
+            _ => {}
+        }
+        Ok(word)
+    }
+
+    fn cycle_or_off(&mut self, s: &Statement) -> Result<Word, Fault> {
         let kind = s.argument(0).to_ascii_uppercase();
         match kind.as_str() {
             "OFF" | "NOMORE" => return Ok(Word::CycleOff),
@@ -75,6 +88,7 @@ impl Reader<'_> {
         self.warn_of_others(&kind, &words.of_thread, s.line);
         let is_deep = words.is_deep || kind.starts_with("DEEP");
         let cycle = words.cycle(is_deep, kind == "REAM")?;
+        self.warn_of_clearance(&kind, &words, s.line);
         let is_drilling = matches!(kind.as_str(), "DRILL" | "FACE" | "REAM" | "CSINK");
         if !is_drilling && cycle.pecks_mm.is_none() {
             let message = format!("CYCLE/{kind} is read as drilling in one stroke");
@@ -83,6 +97,17 @@ impl Reader<'_> {
         }
         self.cycle = Some(cycle);
         Ok(Word::Cycle(cycle))
+    }
+
+    /// Without a clearance rapid traverse ends on the surface.
+    fn warn_of_clearance(&mut self, kind: &str, words: &Words, line: u32) {
+        if words.clearance.is_none() {
+            let message = format!(
+                "CYCLE/{kind} states no clearance: rapid traverse ends at the point, on the surface"
+            );
+            let hint = "write RAPTO (CLEAR) with the height above the point";
+            self.warn("no-clearance", kind, line, message, hint);
+        }
     }
 
     fn warn_of_others(&mut self, kind: &str, others: &[String], line: u32) {
@@ -105,6 +130,10 @@ impl Reader<'_> {
             self.warn_of_others(kind, &["DWELL".to_owned()], line);
         }
         let drilled = words.cycle(false, true)?;
+        if drilled.depth_mm == 0.0 {
+            return Err(("bad-cycle", format!("CYCLE/{kind} has no depth"), TAP_HINT));
+        }
+        self.warn_of_clearance(kind, words, line);
         let (feed, tap) = (words.per_minute.or(words.feed), Some(ClTap { pitch_mm }));
         let cycle = ClCycle { dwell_s: 0.0, feed, tap, ..drilled };
         self.cycle = Some(cycle);
@@ -236,6 +265,15 @@ impl Words {
         if clearance_mm < 0.0 {
             let message = format!("the clearance {clearance_mm} mm is below the point");
             return Err(("bad-cycle", message, HINT));
+        }
+        // RETURN,0 states none.
+        if let Some(retract) = self.retract.filter(|mm| *mm != 0.0 && *mm < clearance_mm - SAME_MM)
+        {
+            let message =
+                format!("the retract height {retract} mm is below the clearance {clearance_mm} mm");
+            let hint =
+                "the tool would cross to the next hole there: write RTRCTO above RAPTO, or none";
+            return Err(("bad-cycle", message, hint));
         }
         let positive = |length: Option<f64>| length.filter(|v| *v > 0.0);
         let peck = positive(self.step);

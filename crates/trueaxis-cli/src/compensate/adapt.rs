@@ -18,7 +18,8 @@ Examples:
 The blank is registered, its form becomes a smooth field, the path is moved along its normals, and a
 virtual cut shows the wall thickness that remains. A program is written only if the wall is thick enough everywhere, nothing
 is gouged, and the program, read back and simulated, follows the adapted path within the travel.
-Exit status: 0 done, 1 the path must not be cut (then no program is written), 2 unusable input.")]
+Exit status: 0 done, 1 the path must not be cut (then no program is written), or words of it that can change motion,
+spindle or coolant are not applied (NOT APPLIED; path and program are written), 2 unusable input.")]
 pub struct AdaptArguments {
     /// The study
     #[arg(value_name = "STUDY.toml")]

@@ -30,6 +30,8 @@ pub struct AdaptReport<'a> {
     pub adaptation: &'a Adaptation,
     /// The program, if one was asked for.
     pub program: Option<&'a AdaptedProgram>,
+    /// Words of the path that can change motion, spindle or coolant and are not applied.
+    pub not_applied: usize,
 }
 
 /// The spread of some values.
@@ -81,7 +83,8 @@ impl AdaptReport<'_> {
         self.adaptation.places.iter().filter(|p| p.contact.is_some()).count()
     }
 
-    pub(super) fn is_sound(&self) -> bool {
+    /// Whether the path may be cut and its program, if one was asked for, was written.
+    pub fn is_sound(&self) -> bool {
         self.adaptation.findings.is_empty() && self.program.is_none_or(|p| p.written)
     }
 
@@ -118,9 +121,15 @@ impl AdaptReport<'_> {
 
 /// The answer.
 pub fn adapt_report<'a>(r: &AdaptReport<'a>) -> Report<'a> {
-    let (standing, word) = match r.is_sound() {
-        true => (Standing::Good, "GOOD"),
-        false => (Standing::Bad, "NOT TO BE CUT"),
+    let (standing, word) = match (r.is_sound(), r.not_applied) {
+        (true, 0) => (Standing::Good, "GOOD"),
+        (true, _) => (Standing::Open, "NOT APPLIED"),
+        (false, _) => (Standing::Bad, "NOT TO BE CUT"),
+    };
+    let words = match r.not_applied {
+        0 => None,
+        1 => Some("1 word of the path is not applied, listed above".to_owned()),
+        n => Some(format!("{n} words of the path are not applied, listed above")),
     };
     let (study, path) = (r.study, r.study.path.name());
     let maps = Section::new("Form of the blank and distance from an equal layer").on_page();
@@ -128,12 +137,10 @@ pub fn adapt_report<'a>(r: &AdaptReport<'a>) -> Report<'a> {
     let wall = Section::new("Remaining wall, place by place").on_page();
     let mut characters = String::new();
     Layout::of(&r.adaptation.map).characters(&mut characters, r);
-    Report::new(&study.name)
-        .line(format!(
-            "{path} on {}, moved onto the blank of {}",
-            study.machine.name(),
-            study.table
-        ))
+    let on = format!("{path} on {}, moved onto the blank of {}", study.machine.name(), study.table);
+    let lines = std::iter::once(on).chain(words);
+    lines
+        .fold(Report::new(&study.name), Report::line)
         .verdict(standing, word, r.verdict())
         .section(findings(r))
         .section(walls(r))

@@ -18,8 +18,10 @@ pub struct AdaptDocument<'a> {
     pub machine: &'a str,
     /// The file of the path.
     pub path: &'a str,
-    /// `good` or `not to be cut`.
+    /// `good`, `not applied` (words of the path are not) or `not to be cut`.
     pub verdict: &'static str,
+    /// Words of the path that can change motion, spindle or coolant and are not applied; the exit status is then 1.
+    pub not_applied: usize,
     /// What speaks against the path.
     pub findings: Vec<FindingEntry<'a>>,
     /// How the blank lies.
@@ -200,7 +202,12 @@ impl<'a> AdaptDocument<'a> {
             name: &study.name,
             machine: study.machine.name(),
             path: study.path.name(),
-            verdict: if report.is_sound() { "good" } else { "not to be cut" },
+            verdict: match (report.is_sound(), report.not_applied) {
+                (true, 0) => "good",
+                (true, _) => "not applied",
+                (false, _) => "not to be cut",
+            },
+            not_applied: report.not_applied,
             findings: findings
                 .map(|f| FindingEntry {
                     code: f.code,

@@ -395,8 +395,10 @@ class CompensateAdaptDocument(Record):
     machine: str
     #: The file of the path.
     path: str
-    #: `good` or `not to be cut`.
+    #: `good`, `not applied` (words of the path are not) or `not to be cut`.
     verdict: str
+    #: Words of the path that can change motion, spindle or coolant and are not applied; the exit status is then 1.
+    not_applied: int
     #: What speaks against the path.
     findings: List[CompensateAdaptDocument.FindingEntry]
     #: How the blank lies.

@@ -1,5 +1,6 @@
 //! How is a path moved onto the blank that was measured?
 
+use super::words;
 use super::{Answer, NewFile, Question, Tell, named_control, with_diagnostics};
 use crate::files::output::Output;
 use crate::report;
@@ -34,6 +35,8 @@ pub struct AdaptAnswer {
     study: AdaptStudy,
     adaptation: Adaptation,
     program: Option<AdaptedProgram>,
+    /// Words of the path that are not applied.
+    not_applied: usize,
     files: Vec<NewFile>,
     asked_for_files: bool,
 }
@@ -130,14 +133,15 @@ impl Question for Adapt {
             files.extend(self.cutter_locations(&study, &adaptation));
         }
         let asked_for_files = self.output.is_some() || self.cl.is_some();
-        Some(AdaptAnswer { study, adaptation, program, files, asked_for_files })
+        let not_applied = words::not_applied(problems);
+        Some(AdaptAnswer { study, adaptation, program, not_applied, files, asked_for_files })
     }
 }
 
 impl AdaptAnswer {
     fn shown(&self) -> AdaptReport<'_> {
-        let Self { study, adaptation, program, .. } = self;
-        AdaptReport { study, adaptation, program: program.as_ref() }
+        let Self { study, adaptation, program, not_applied, .. } = self;
+        AdaptReport { study, adaptation, program: program.as_ref(), not_applied: *not_applied }
     }
 }
 
@@ -151,7 +155,7 @@ impl Answer for AdaptAnswer {
     }
 
     fn is_yes(&self) -> bool {
-        self.adaptation.findings.is_empty() && self.program.as_ref().is_none_or(|p| p.written)
+        self.shown().is_sound() && self.not_applied == 0
     }
 
     fn files(&mut self) -> Vec<NewFile> {

@@ -11,7 +11,7 @@ use serde_json::Value;
 use std::path::PathBuf;
 use trueaxis_calibrate::plan::extension;
 use trueaxis_cl::{ClFile, ClPath, Reading};
-use trueaxis_input::{Content, Diagnostic, Diagnostics, Files, Place, Severity};
+use trueaxis_input::{Content, Diagnostics, Files, Place};
 use trueaxis_machine::Machine;
 use trueaxis_part::TestPieceFile;
 use trueaxis_post::{
@@ -245,7 +245,7 @@ impl Question for Post {
         let verification = self.verify.then(|| verify_in_place(&machine, &mut posted, &options));
         let output = self.output.clone();
         let (set_up, set_up_is_sound) = self.set_up_files(&machine, &options, &set_up, problems)?;
-        let not_applied = problems.iter().filter(|p| is_not_applied(p)).count();
+        let not_applied = words::not_applied(problems);
         Some(PostAnswer {
             machine,
             file,
@@ -258,12 +258,6 @@ impl Question for Post {
             set_up_is_sound,
         })
     }
-}
-
-/// Words of the file that can change motion, spindle or coolant, and do not.
-fn is_not_applied(problem: &Diagnostic) -> bool {
-    const CODES: [&str; 4] = ["not-applied", "cycle-not-applied", "unknown-word", "surface-speed"];
-    problem.severity == Severity::Warning && CODES.contains(&problem.code)
 }
 
 impl PostAnswer {

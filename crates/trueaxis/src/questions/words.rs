@@ -3,7 +3,8 @@
 use std::path::Path;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{
-    CsvTable, Diagnostics, Dimension, Files, Place, QuantityError, parse_quantity,
+    CsvTable, Diagnostic, Diagnostics, Dimension, Files, Place, QuantityError, Severity,
+    parse_quantity,
 };
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Command};
@@ -13,6 +14,14 @@ use trueaxis_report::numbers::exact;
 /// The place of a problem in an argument.
 pub(super) fn argument(name: &str) -> Place {
     Place::whole(name)
+}
+
+/// How many words of a cutter-location file can change motion, spindle or coolant, and do not.
+pub(super) fn not_applied(problems: &Diagnostics) -> usize {
+    const CODES: [&str; 4] = ["not-applied", "cycle-not-applied", "unknown-word", "surface-speed"];
+    let is_not_applied =
+        |p: &&Diagnostic| p.severity == Severity::Warning && CODES.contains(&p.code);
+    problems.iter().filter(is_not_applied).count()
 }
 
 /// The words of a list: between commas or semicolons if there are any, else between blanks. So a

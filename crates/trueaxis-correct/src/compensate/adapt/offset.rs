@@ -236,6 +236,7 @@ fn name_faults(
 fn refuse_curves(study: &AdaptStudy, problems: &mut Diagnostics) {
     let curves = study.path.records().iter().filter_map(|r| match r.word {
         Word::Circle(_) => Some((r.line, "CIRCLE")),
+        Word::Arc(..) => Some((r.line, "TLON,GOFWD")),
         Word::Cycle(_) => Some((r.line, "CYCLE")),
         _ => None,
     });

@@ -3,7 +3,7 @@
 use super::cutter::Cutter;
 use super::table::{SurfacePoint, read_points};
 use std::path::{Path, PathBuf};
-use trueaxis_cl::{ClFile, Reading};
+use trueaxis_cl::{ClFile, Reading, Word};
 use trueaxis_input::{
     Diagnostics, Dimension, Files, Item, MeasuredValue, Place, Section, SourceText,
 };
@@ -13,6 +13,10 @@ use trueaxis_machine::Machine;
 const MOST_PLACES: usize = 200_000;
 /// A map of more places shows nothing more.
 const MOST_CELLS: usize = 20_000;
+/// Cutters that differ by no more are the same: files round.
+const SAME_CUTTER_MM: f64 = 5e-3;
+/// More other cutters of one path are not named.
+const MOST_CUTTERS: usize = 5;
 
 /// How the path follows a blank that lies elsewhere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -173,6 +177,9 @@ fn read(root: &Section<'_>, folder: &Path, from_hits: FromHits<'_>) -> Option<Ad
         machine
     });
     let cl = cl.and_then(|path| read_path(root.files(), &path, &mut found));
+    if let (Some(path), Some(cutter)) = (&cl, &cutter) {
+        compare_cutters(path, cutter, &mut found);
+    }
     let points = table.as_ref().and_then(|path| {
         if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
             let text = from_hits(path, &mut found)?;
@@ -220,12 +227,6 @@ fn read_path(files: &Files, path: &Path, problems: &mut Diagnostics) -> Option<C
     let (file, found) = ClFile::read(&path.display().to_string(), text, &Reading::default());
     let sound = !found.has_errors();
     problems.append(found);
-    let ends = file.records().iter().any(|r| r.word == trueaxis_cl::Word::End);
-    if sound && !ends && !file.is_table() {
-        let place = Place::whole(file.name());
-        let hint = "is the file whole? APT ends with FINI";
-        problems.warn("no-end", place, "the path has no FINI".to_owned(), hint);
-    }
     let places = file.points().count();
     if places > MOST_PLACES {
         let message = format!("{places} places of the tool are more than {MOST_PLACES}");
@@ -234,6 +235,30 @@ fn read_path(files: &Files, path: &Path, problems: &mut Diagnostics) -> Option<C
         return None;
     }
     sound.then_some(file)
+}
+
+/// The path was computed for the cutter that it states (CUTTER), and is moved for that of the study.
+fn compare_cutters(path: &ClFile, cutter: &Cutter, problems: &mut Diagnostics) {
+    let mut said = Vec::new();
+    for record in path.records() {
+        let Word::Cutter { diameter_mm, corner_radius_mm } = record.word else { continue };
+        let corner_mm = corner_radius_mm.unwrap_or(cutter.corner_mm);
+        let [is, of_file] = [[2.0 * cutter.radius_mm, cutter.corner_mm], [diameter_mm, corner_mm]];
+        let differ = is.iter().zip(of_file).any(|(a, b)| (a - b).abs() > SAME_CUTTER_MM);
+        if !differ || said.contains(&of_file) || said.len() == MOST_CUTTERS {
+            continue;
+        }
+        said.push(of_file);
+        let corner =
+            corner_radius_mm.map_or_else(String::new, |r| format!(" with a corner of {r} mm"));
+        let message = format!(
+            "the path states a cutter of {diameter_mm} mm{corner}, the study one of {} mm with a corner of {} mm",
+            is[0], is[1]
+        );
+        let place = Place { file: path.name().to_owned(), line: record.line as usize, column: 1 };
+        let hint = "with another cutter the path touches elsewhere: correct [cutter], or write the path for it";
+        problems.warn("other-cutter", place, message, hint);
+    }
 }
 
 /// A length above a limit, or a problem.
