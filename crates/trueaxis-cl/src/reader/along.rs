@@ -43,10 +43,13 @@ impl Reader<'_> {
             (place(said.center)?, place(said.line[0])?, place(said.line[1])?);
         let radius_mm = said.radius * unit_mm;
         let Some((from, direction)) = self.tip_mm.zip(self.direction.take()) else {
-            return refused("it states no direction or has no point before it".to_owned(), FORM);
+            return refused("it states no direction or has no point before it", FORM);
         };
         if let Some(line) = self.cycle_on {
-            return refused(format!("the CYCLE of line {line} is on"), "write CYCLE/OFF before it");
+            return refused(
+                &format!("the CYCLE of line {line} is on"),
+                "write CYCLE/OFF before it",
+            );
         }
         check_places([center, begin, from, end], radius_mm)?;
         let sign = sense([center, from], direction)?;
@@ -57,7 +60,7 @@ impl Reader<'_> {
     }
 }
 
-fn refused<T>(why: String, hint: &'static str) -> Result<T, Fault> {
+fn refused<T>(why: &str, hint: &'static str) -> Result<T, Fault> {
     Err(("bad-circle", format!("the circle of TLON,GOFWD is not read: {why}"), hint))
 }
 
@@ -86,7 +89,7 @@ fn said(s: &Statement) -> Result<Option<Said>, Fault> {
             Ok(Some(Said { center: [x, y, z], radius, line, second }))
         }
         (circle, line) => refused(
-            format!("it has {} and {} numbers, not 4 and 6", circle.len(), line.len()),
+            &format!("it has {} and {} numbers, not 4 and 6", circle.len(), line.len()),
             FORM,
         ),
     }
@@ -107,20 +110,20 @@ fn check_places([center, begin, from, end]: [[f64; 3]; 4], radius_mm: f64) -> Re
         let up = place[2] - center[2];
         if up.abs() > OFF_PLANE_MM {
             return refused(
-                format!("{name} is {up:.4} mm above its centre: a helix, or another plane"),
+                &format!("{name} is {up:.4} mm above its centre: a helix, or another plane"),
                 HINT,
             );
         }
     }
     if norm(&minus(begin, center)) > OFF_PLANE_MM {
-        return refused("LINE does not begin at its centre".to_owned(), FORM);
+        return refused("LINE does not begin at its centre", FORM);
     }
     for (name, place) in &places[..2] {
         let is_mm = norm(&minus(*place, center));
         if !(radius_mm > 0.0 && (is_mm - radius_mm).abs() <= off_circle_mm(radius_mm)) {
             let why =
                 format!("{name} is {is_mm:.4} mm from its centre, its radius is {radius_mm:.4} mm");
-            return refused(why, "check the points, the centre and the units");
+            return refused(&why, "check the points, the centre and the units");
         }
     }
     Ok(())
@@ -139,7 +142,7 @@ fn sense([center, from]: [[f64; 3]; 2], direction: [f64; 3]) -> Result<f64, Faul
     }
     let [i, j, k] = direction;
     let why = format!("INDIRV/{i},{j},{k} is not its tangent at the point before");
-    refused(why, "check INDIRV and the point before")
+    refused(&why, "check INDIRV and the point before")
 }
 
 /// How far the tool goes round; the place that is reached must be the one that the words say.
@@ -153,13 +156,13 @@ fn turn(circle: &ClCircle, [from, end]: [[f64; 3]; 2], second: bool) -> Result<f
     let degrees = angle.to_degrees();
     match second {
         false if angle > PI + allowed || angle < OFF_PLANE_MM / norm(&a) => refused(
-            format!(
+            &format!(
                 "to the second point of LINE are {degrees:.3} deg, and the line is reached earlier"
             ),
             "write ON,2,INTOF where the second place is meant",
         ),
         true if angle < PI - allowed => refused(
-            format!(
+            &format!(
                 "to the second point of LINE are {degrees:.3} deg, which is the first place and not the second"
             ),
             "leave out 2,INTOF, or check INDIRV",
