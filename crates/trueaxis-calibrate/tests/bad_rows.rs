@@ -271,7 +271,7 @@ fn copies_make_nothing_surer() {
         assert_eq!(told[0].place.line, *line);
         assert!(told[3].message.contains(&format!("{count} of")), "{}", told[3].message);
     }
-    // Positions that nobody can tell apart make no other row of it.
+    // Positions that differ by less than a control states make no other row of it.
     let first = head.split(',').next().expect("a column").to_owned();
     let near = changed(&plain, |_, cells| *cells.get_mut(&first).expect("an axis") += 1e-9);
     let near = format!("{plain}{}", near.split_once('\n').expect("a head").1);

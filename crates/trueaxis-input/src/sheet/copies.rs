@@ -143,7 +143,7 @@ mod tests {
             let (kept, told) = rows(&format!("p_mm,d_um\n{}", body.repeat(times)), false);
             assert_eq!((kept, told.len()), (5, 4), "{told:?}");
         }
-        // Nor is one whose places were changed by what nobody measures, in any unit.
+        // Nor is one whose places were changed by less than is measured, in any unit.
         for unit in [1.0, 1e-3, 25.4] {
             let row = |x: f64, d: f64| format!("{},{}\n", x * unit, d * unit);
             let near: String = (0..4)
