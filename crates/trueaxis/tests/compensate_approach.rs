@@ -333,3 +333,38 @@ fn law_a_cut_that_begins_uncorrected_is_listed() {
         assert_eq!(written.expect("a program").found.begins_elsewhere, [0; 0], "{text}");
     }
 }
+
+/// A block with feed to machine coordinates stays as it is, however long it is, and what comes after it is right; M91 of Klartext is
+/// corrected.
+#[test]
+fn law_a_feed_to_machine_coordinates_stays_as_it_is() {
+    let iso =
+        "G0 X150. Y100. Z-398.\nG1 X200. F500.\nLEAVES\nG0 X150. Y100. Z-398.\nG1 X200.\nM30\n";
+    let klartext = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+150 Y+100 Z-398 R0 FMAX\nL X+200 R0 F500\nLEAVES\nL X+150 Y+100 Z-398 R0 FMAX\nL X+200 R0 F500\nEND PGM A MM\n";
+    for (control, leaves) in [
+        (Control::Haas, "G1 G53 Z-100."),
+        (Control::Haas, "G53 X10. Y20. Z-100."),
+        (Control::LinuxCnc, "G53 Z-100."),
+        (Control::LinuxCnc, "G1 G53 X10. Z-100."),
+        (Control::Fanuc, "G1 G53 Z-100."),
+        (Control::Sinumerik840d, "G1 SUPA Z-100 D0"),
+        (Control::Sinumerik840d, "G53 X10 Z-100"),
+        (Control::Heidenhain, "L Z-100 R0 F500 M91"),
+    ] {
+        let klar = control == Control::Heidenhain;
+        let mut text = if klar { klartext.to_owned() } else { format!("G21 G17 G90 G94\n{iso}") };
+        if control == Control::Sinumerik840d {
+            text = text.replace("G21", "G710").replace(".\n", "\n").replace(". ", " ");
+        }
+        let text = text.replace("LEAVES", leaves);
+        let program = Program::new("p", text.clone().into_bytes(), control);
+        let mill = machine("three-axis-mill");
+        let options = ProgramOptions::default();
+        let (written, problems) = compensate_program(&mill, &program, &SetUp::default(), &options);
+        let written = written.unwrap_or_else(|| panic!("{problems:?}\n{text}"));
+        let shown = String::from_utf8_lossy(&written.text);
+        assert!(written.is_proved(), "{:?}\n{shown}", written.unproved);
+        assert_eq!(shown.contains(leaves), !klar, "{shown}");
+        assert!(written.proof.after.tip.value < 1.5e-3 && written.proof.compared >= 2, "{shown}");
+    }
+}

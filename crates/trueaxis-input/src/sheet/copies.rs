@@ -10,7 +10,7 @@ const MOST_NAMED: usize = 3;
 const LEAST_DIFFERENT: usize = 5;
 /// Numbers are equal that agree to so many digits of the largest of their column: no control and no instrument states more.
 /// Copies whose places were changed by less would shrink U as well.
-const DIGITS: i32 = 9;
+const DIGITS: f64 = 9.0;
 
 impl Sheet {
     /// The table without rows that are equal to an earlier one to the ninth digit: for points, which no
@@ -98,11 +98,7 @@ fn last_digit(values: &[f64]) -> f64 {
     let largest = values.iter().filter(|v| v.is_finite()).fold(0.0_f64, |m, v| m.max(v.abs()));
     let first = largest.log10().floor();
     // Of zeros there is no digit.
-    if first.is_finite() {
-        10_f64.powi(first as i32 + 1 - DIGITS).max(f64::MIN_POSITIVE)
-    } else {
-        1.0
-    }
+    if first.is_finite() { 10_f64.powf(first + 1.0 - DIGITS).max(f64::MIN_POSITIVE) } else { 1.0 }
 }
 
 #[cfg(test)]

@@ -326,8 +326,11 @@ impl Block<'_> {
         if self.m.coordinates == Coordinates::Machine || self.words.machine.is_some() {
             return Ok(target - value);
         }
+        let round = |v: f64| (v * 1e4).round() / 1e4;
+        let (value, target) = (round(value), round(target));
+        let unit = if axis.is_rotary() { "deg" } else { "mm" };
         let message = format!(
-            "{axis}{value} leads to {target}: polar or scaled coordinates, a corner, or a cycle"
+            "{axis}{value} leads to {target} {unit}: polar or scaled coordinates, a corner, or a cycle"
         );
         let hint = "write plain moves with X, Y and Z; a cycle as its single moves";
         Err(refusal(self.m.origin, "other-coordinates", message, hint))

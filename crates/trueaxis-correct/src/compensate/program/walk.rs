@@ -31,6 +31,7 @@ use trueaxis_nc::moves::{
 };
 
 const TO_MACHINE_ZERO: &str = "rapid to machine coordinates";
+const FEED_TO_MACHINE: &str = "move with feed to machine coordinates";
 const NO_CUT_BEGINS: &str = "rapid from which no cut begins";
 
 /// A program on its way into another.
@@ -262,7 +263,7 @@ impl<'w> Walk<'w> {
         words: Option<(&Words, Modes)>,
         lead: Option<Lead>,
     ) -> Result<(), Fault> {
-        match why_left(m, way.nodes, words.map(|(words, _)| words)) {
+        match why_left(m, way.nodes, words.map(|(words, _)| words), self.text.control()) {
             Some(why) => self.leave(m, way, words, why),
             None if lead.is_some_and(|lead| lead.axes == AxisSet::default()) => {
                 self.leave(m, way, words, NO_CUT_BEGINS)
@@ -545,7 +546,12 @@ impl<'w> Walk<'w> {
 }
 
 /// Why a block stays as it is, whatever the machine does.
-fn why_left(m: &Move, nodes: &[Node], words: Option<&Words>) -> Option<&'static str> {
+fn why_left(
+    m: &Move,
+    nodes: &[Node],
+    words: Option<&Words>,
+    control: Control,
+) -> Option<&'static str> {
     match (m.kind, m.coordinates) {
         (MoveKind::Dwell { .. }, _) => Some(""),
         (MoveKind::Align { .. }, _) => Some("the tool turns onto a swivelled plane"),
@@ -556,6 +562,13 @@ fn why_left(m: &Move, nodes: &[Node], words: Option<&Words>) -> Option<&'static 
         (MoveKind::Rapid, Coordinates::Machine) => Some(TO_MACHINE_ZERO),
         // FANUC's G53 comes as a place of the program frame.
         (MoveKind::Rapid, _) if words.is_some_and(|w| w.machine.is_some()) => Some(TO_MACHINE_ZERO),
+        // A block more would have to say G53 or SUPA again; M91 of Klartext is corrected.
+        _ if control != Control::Heidenhain
+            && (m.coordinates == Coordinates::Machine
+                || words.is_some_and(|w| w.machine.is_some())) =>
+        {
+            Some(FEED_TO_MACHINE)
+        }
         (MoveKind::Rapid, _) if words.is_some_and(|w| w.reference) => {
             Some("move to a reference point")
         }
