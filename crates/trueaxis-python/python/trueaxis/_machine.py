@@ -341,7 +341,7 @@ class Machine:
                 f"the machine has no axis `{unknown[0]}`",
                 f"name each column by an axis of the machine, mm and degrees: {', '.join(axes)}",
             )
-        if not names:
+        if len(names) == 0:
             message = "it has no columns, so that the number of poses is not known"
             raise refuse("array-shape", argument, message, f"name each column by an axis: {', '.join(axes)}")
         masked = [name for name in names if np.ma.isMaskedArray(commands[name])]
