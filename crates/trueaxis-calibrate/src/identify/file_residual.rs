@@ -5,7 +5,7 @@
 //! ```
 //!
 //! An error that is not observable by itself stands in no file, also where the readings know its sum with another one well. The
-//! file then has a part of that sum, and may fit the same machine worse than the file before it.
+//! file then has a part of that sum, and may fit the machine worse than one without any of the unknown errors.
 
 use super::errors::Identification;
 use super::machine_file::is_stated;
@@ -58,8 +58,8 @@ pub fn check_file(
         None => format!("{:.1} times the noise", rms.noise),
     };
     let message = format!(
-        "at the measured poses the machine of this file misses the readings by {} (root mean square), the one before it by {}, and all \
-         that was found by {}: errors that are known only together with others are not in it",
+        "at the measured poses the machine of this file misses the readings by {} (root mean square), one without the unknown errors by {}, and \
+         all that was found by {}: errors that are known only together with others are not in it",
         shown(file),
         shown(found.score.before),
         shown(all)

@@ -148,7 +148,7 @@ mod tests {
                 .collect();
             let (kept, told) = rows(&format!("p_mm,d_um\n{near}"), false);
             assert_eq!((kept, told.len()), (7, 4), "{told:?}");
-            // A tenth of a nanometre in a metre is another place.
+            // A nanometre in 7 mm is another place.
             let far: String = (0..4)
                 .flat_map(|k| (1..8).map(move |i| (k, f64::from(i))))
                 .map(|(k, i)| row(i + f64::from(k) * 1e-6, i * 1.1))
